@@ -1,0 +1,36 @@
+# Language, warnings and sanitizers, for every target alike.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64")
+  # SSE4.2 keeps Eigen's 16-byte alignment, so that objects may be shared with Debian's PCL;
+  # anything wider (AVX) would not.
+  add_compile_options(-march=x86-64-v2)
+endif()
+# The same bits on every build: no contraction into fused multiply-adds.
+add_compile_options(-ffp-contract=off)
+
+if(EDGEPOSE_SANITIZE)
+  add_compile_options(-fsanitize=${EDGEPOSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${EDGEPOSE_SANITIZE})
+endif()
+if(EDGEPOSE_COVERAGE)
+  add_compile_options(--coverage)
+  add_link_options(--coverage)
+endif()
+
+# edgepose_library(NAME SOURCES... ): one static library a folder, headers included as "folder/file.h".
+function(edgepose_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()
