@@ -29,6 +29,10 @@ if(EDGEPOSE_COVERAGE)
   add_link_options(--coverage)
 endif()
 
+if(EDGEPOSE_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 # edgepose_library(NAME SOURCES... ): one static library a folder, headers included as "folder/file.h".
 function(edgepose_library name)
   add_library(${name} STATIC ${ARGN})
