@@ -1,0 +1,149 @@
+#include "matcher/surface_sampling.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "matcher/parallel.h"
+#include "matcher/point_grid.h"
+
+namespace edgepose {
+namespace {
+
+/// Uniform in [0, 1) and the same on every platform, unlike std::uniform_real_distribution.
+double unit_random(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1.0p-53;
+}
+
+template <typename T>
+void shuffle(std::vector<T>& values, std::mt19937_64& generator) {
+  for (size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[generator() % i]);
+}
+
+std::vector<OrientedPoint> sample_cloud(const Mesh& cloud, size_t count, std::mt19937_64& generator) {
+  if (cloud.vertices.size() < 100)
+    throw std::invalid_argument("expected at least 100 points in a model cloud, found " +
+                                std::to_string(cloud.vertices.size()));
+  if (cloud.normals.size() != cloud.vertices.size())
+    throw std::invalid_argument("expected a normal for every point of a model cloud, found " +
+                                std::to_string(cloud.normals.size()) + " for " +
+                                std::to_string(cloud.vertices.size()) + " points");
+  std::vector<OrientedPoint> points;
+  for (size_t i = 0; i < cloud.vertices.size(); ++i) {
+    const float length = cloud.normals[i].norm();
+    if (cloud.vertices[i].allFinite() && length > 0.5f && length < 2)
+      points.push_back({cloud.vertices[i], cloud.normals[i] / length});
+  }
+  shuffle(points, generator);
+  if (points.size() > count) points.resize(count);
+  return points;
+}
+
+/// The vertices' normals blended, if they agree with the triangle (they do not across a sharp edge).
+Eigen::Vector3f blended_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle,
+                               const Eigen::Vector3f& face_normal, float a, float b) {
+  if (mesh.normals.empty()) return face_normal;
+  const Eigen::Vector3f blend =
+      (1 - a - b) * mesh.normals[triangle[0]] + a * mesh.normals[triangle[1]] + b * mesh.normals[triangle[2]];
+  const float length = blend.norm();
+  const bool agrees = length > 0.1f && blend.dot(face_normal) > 0.8f * length;
+  return agrees ? Eigen::Vector3f(blend / length) : face_normal;
+}
+
+}  // namespace
+
+std::vector<OrientedPoint> sample_surface(const Mesh& mesh, size_t count, uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  if (mesh.triangles.empty()) return sample_cloud(mesh, count, generator);
+
+  std::vector<double> area_up_to;  // cumulative
+  double total = 0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>(), b = mesh.vertices[t[1]].cast<double>(),
+                          c = mesh.vertices[t[2]].cast<double>();
+    const double area = (b - a).cross(c - a).norm() / 2;
+    total += std::isfinite(area) ? area : 0;
+    area_up_to.push_back(total);
+  }
+  if (!(total > 0)) throw std::invalid_argument("expected a mesh with surface, found an area of zero");
+
+  std::vector<OrientedPoint> points;
+  points.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    // Stratified along the cumulated area: evener than independent draws.
+    const double target = (static_cast<double>(i) + unit_random(generator)) / static_cast<double>(count) * total;
+    const size_t k = std::min<size_t>(
+        static_cast<size_t>(std::upper_bound(area_up_to.begin(), area_up_to.end(), target) - area_up_to.begin()),
+        mesh.triangles.size() - 1);
+    float a = static_cast<float>(unit_random(generator)), b = static_cast<float>(unit_random(generator));
+    if (a + b > 1) a = 1 - a, b = 1 - b;
+    const auto& t = mesh.triangles[k];
+    const Eigen::Vector3f edge1 = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+    const Eigen::Vector3f edge2 = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+    const Eigen::Vector3d cross = edge1.cast<double>().cross(edge2.cast<double>());
+    if (!(cross.norm() > 0)) continue;
+    const Eigen::Vector3f face_normal = cross.normalized().cast<float>();
+    points.push_back({mesh.vertices[t[0]] + a * edge1 + b * edge2, blended_normal(mesh, t, face_normal, a, b)});
+  }
+  shuffle(points, generator);
+  return points;
+}
+
+std::vector<uint32_t> thin_out(const std::vector<OrientedPoint>& points, const std::vector<float>& steps) {
+  std::vector<uint32_t> kept;
+  std::vector<bool> taken(points.size(), false);
+  for (float step : steps) {
+    PointGrid grid(step);
+    for (uint32_t k : kept) grid.add(points[k].position, k);
+    for (uint32_t i = 0; i < points.size(); ++i) {
+      if (taken[i]) continue;
+      bool free = true;
+      grid.visit_near(points[i].position, [&](uint32_t k) {
+        // Opposite sides of a thin wall do not crowd each other out.
+        const bool near = (points[k].position - points[i].position).squaredNorm() < step * step;
+        return free = !(near && points[k].normal.dot(points[i].normal) > 0);
+      });
+      if (!free) continue;
+      taken[i] = true;
+      kept.push_back(i);
+      grid.add(points[i].position, i);
+    }
+  }
+  return kept;
+}
+
+std::vector<OrientedPoint> smooth_normals(const std::vector<OrientedPoint>& points,
+                                          const std::vector<uint32_t>& of, float radius, int threads) {
+  PointGrid grid(radius);
+  for (uint32_t i = 0; i < points.size(); ++i) grid.add(points[i].position, i);
+  std::vector<OrientedPoint> smoothed(of.size());
+  parallel_for(of.size(), threads, [&](size_t i) {
+    const OrientedPoint& centre = points[of[i]];
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    grid.visit_near(centre.position, [&](uint32_t k) {
+      const bool near = (points[k].position - centre.position).squaredNorm() <= radius * radius;
+      if (near && points[k].normal.dot(centre.normal) > 0) sum += points[k].normal;
+      return true;
+    });
+    smoothed[i] = {centre.position, sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : centre.normal};
+  });
+  return smoothed;
+}
+
+float largest_distance(const std::vector<OrientedPoint>& points) {
+  if (points.empty()) return 0;
+  // Only points far from the centre can be ends of the diameter: sort by that and stop early.
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  for (const auto& p : points) centre += p.position / static_cast<float>(points.size());
+  std::vector<std::pair<float, uint32_t>> by_radius;
+  for (uint32_t i = 0; i < points.size(); ++i) by_radius.emplace_back((points[i].position - centre).norm(), i);
+  std::sort(by_radius.begin(), by_radius.end(), std::greater<>());
+  float best = 0;
+  for (size_t i = 0; i < by_radius.size() && 2 * by_radius[i].first > best; ++i)
+    for (size_t k = i + 1; k < by_radius.size() && by_radius[i].first + by_radius[k].first > best; ++k)
+      best = std::max(best, (points[by_radius[i].second].position - points[by_radius[k].second].position).norm());
+  return best;
+}
+
+}  // namespace edgepose
