@@ -1,0 +1,141 @@
+#include "matcher/voting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "matcher/pair_feature.h"
+#include "matcher/parallel.h"
+
+namespace edgepose {
+namespace {
+
+constexpr int kAlphaBits = 5;  // 32 bins of 11.25 degrees
+constexpr uint32_t kAlphaBins = 1u << kAlphaBits;
+constexpr int kAlphaShift = 16 - kAlphaBits;
+
+/// Buckets a feature votes in along one dimension: its own and perhaps a neighbour.
+struct Bins {
+  std::array<uint32_t, 2> bin;
+  int count;
+};
+Bins bins_of(float value, float border, uint32_t size) {
+  const uint32_t own = std::min(static_cast<uint32_t>(value), size - 1);
+  const float rest = value - static_cast<float>(own);
+  if (rest < border && own > 0) return {{own, own - 1}, 2};
+  if (rest > 1 - border && own + 1 < size) return {{own, own + 1}, 2};
+  return {{own, own}, 1};
+}
+
+/// Everything one thread needs to vote for one reference after the other.
+class Accumulator {
+ public:
+  explicit Accumulator(const Model& model)
+      : view_(model.view()), votes_(view_.points.size() * kAlphaBins), flags_(view_.offsets.size() - 1) {
+    const ModelHeader& h = *view_.header;
+    quantiser_ = {static_cast<float>(1 / h.distance_step),
+                  static_cast<float>(h.angle_bins) / std::numbers::pi_v<float>, h.distance_bins, h.angle_bins};
+  }
+
+  void vote_for(const std::vector<OrientedPoint>& points, uint32_t reference, float border) {
+    std::fill(votes_.begin(), votes_.end(), uint16_t{0});
+    const float reach = static_cast<float>(view_.header->diameter);
+    const OrientedPoint& r = points[reference];
+    const ReferenceFrame frame(r);
+    for (uint32_t s = 0; s < points.size(); ++s) {
+      const float squared = (points[s].position - r.position).squaredNorm();
+      if (squared > reach * reach || s == reference || squared <= 0) continue;
+      vote_pair(quantiser_.feature(r, points[s], std::sqrt(squared)), frame.alpha(points[s].position), border);
+    }
+    for (uint32_t bucket : flagged_) flags_[bucket] = 0;
+    flagged_.clear();
+  }
+
+  /// The strongest (model point, alpha) entries as poses; the votes of two neighbouring alphas count together.
+  void peaks(const OrientedPoint& reference, std::span<PoseHypothesis> best) const {
+    struct Peak {
+      uint32_t votes = 0, point = 0, alpha = 0;
+    };
+    std::vector<Peak> top(best.size());
+    for (uint32_t m = 0; m < view_.points.size(); ++m) {
+      const uint16_t* row = votes_.data() + size_t{m} * kAlphaBins;
+      Peak peak{0, m, 0};
+      for (uint32_t a = 0; a < kAlphaBins; ++a) {
+        const uint32_t sum = uint32_t{row[a]} + row[(a + 1) & (kAlphaBins - 1)];
+        if (sum > peak.votes) peak.votes = sum, peak.alpha = a;
+      }
+      if (peak.votes <= top.back().votes) continue;
+      top.back() = peak;
+      for (size_t k = top.size() - 1; k > 0 && top[k].votes > top[k - 1].votes; --k) std::swap(top[k], top[k - 1]);
+    }
+    const ReferenceFrame scene_frame(reference);
+    for (size_t k = 0; k < top.size(); ++k) best[k] = pose(scene_frame, top[k].point, top[k].alpha, top[k].votes);
+  }
+
+ private:
+  void vote_pair(const PairFeature& f, uint16_t alpha_scene, float border) {
+    const Bins normals = bins_of(f.angle_normals, border, quantiser_.angle_bins);
+    const Bins distance = bins_of(f.distance, border, quantiser_.distance_bins);
+    const Bins first = bins_of(f.angle_reference, border, quantiser_.angle_bins);
+    const Bins second = bins_of(f.angle_second, border, quantiser_.angle_bins);
+    for (int n = 0; n < normals.count; ++n) {
+      if (normals.bin[n] < view_.header->normal_bin_first || normals.bin[n] > view_.header->normal_bin_last) continue;
+      for (int d = 0; d < distance.count; ++d)
+        for (int a = 0; a < first.count; ++a)
+          for (int b = 0; b < second.count; ++b)
+            vote_bucket(quantiser_.bucket(distance.bin[d], first.bin[a], second.bin[b], normals.bin[n]), alpha_scene);
+    }
+  }
+
+  void vote_bucket(uint32_t bucket, uint16_t alpha_scene) {
+    const uint32_t begin = view_.offsets[bucket], end = view_.offsets[bucket + 1];
+    if (begin == end) return;
+    // Like pairs at like alpha vote once (Hinterstoisser et al. 2016): planes and dense areas repeat them.
+    const uint32_t bit = 1u << (alpha_scene >> kAlphaShift);
+    uint32_t& flags = flags_[bucket];
+    if (flags & bit) return;
+    if (flags == 0) flagged_.push_back(bucket);
+    flags |= bit;
+    for (uint32_t e = begin; e < end; ++e) {
+      const PairEntry entry = view_.entries[e];
+      const uint32_t alpha = static_cast<uint16_t>(alpha_scene - entry.alpha) >> kAlphaShift;
+      ++votes_[(uint32_t{entry.reference} << kAlphaBits) + alpha];
+    }
+  }
+
+  PoseHypothesis pose(const ReferenceFrame& scene_frame, uint32_t point, uint32_t alpha_bin, uint32_t votes) const {
+    const uint16_t* row = votes_.data() + size_t{point} * kAlphaBins;
+    const float first = row[alpha_bin], second = row[(alpha_bin + 1) & (kAlphaBins - 1)];
+    const float middle = static_cast<float>(alpha_bin) + 0.5f + second / std::max(1.f, first + second);
+    const float alpha = middle * 2 * std::numbers::pi_v<float> / kAlphaBins;
+    const ReferenceFrame model_frame(view_.points[point]);
+    const Eigen::Matrix3f turn = Eigen::AngleAxisf(alpha, Eigen::Vector3f::UnitX()).toRotationMatrix();
+    const Eigen::Matrix3f rotation = scene_frame.rotation.transpose() * turn * model_frame.rotation;
+    return {rotation, scene_frame.origin - rotation * model_frame.origin, static_cast<float>(votes)};
+  }
+
+  const Model::View& view_;
+  FeatureQuantiser quantiser_{};
+  std::vector<uint16_t> votes_;
+  std::vector<uint32_t> flags_, flagged_;
+};
+
+}  // namespace
+
+std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
+                                 const std::vector<uint32_t>& references, const VotingOptions& options) {
+  const size_t peaks = static_cast<size_t>(options.peaks_per_reference);
+  std::vector<PoseHypothesis> hypotheses(references.size() * peaks);
+  const size_t chunks = std::min<size_t>(references.size(), static_cast<size_t>(thread_count(options.threads)));
+  parallel_for(chunks, options.threads, [&](size_t chunk) {
+    Accumulator accumulator(model);
+    for (size_t i = chunk; i < references.size(); i += chunks) {
+      accumulator.vote_for(points, references[i], options.border);
+      accumulator.peaks(points[references[i]], std::span(hypotheses).subspan(i * peaks, peaks));
+    }
+  });
+  return hypotheses;
+}
+
+}  // namespace edgepose

@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "matcher/model_block.h"
+#include "matcher/types.h"
+
+namespace edgepose {
+
+/// A pose with the votes behind it.
+struct PoseHypothesis {
+  Eigen::Matrix3f rotation;     ///< of camera_T_model
+  Eigen::Vector3f translation;  ///< [m] of camera_T_model
+  float votes;
+};
+
+struct VotingOptions {
+  int peaks_per_reference = 4;   ///< best entries of each accumulator that become hypotheses
+  float border = 0.2f;           ///< [bins] features this close to a bucket's border also vote in the next one
+  int threads = 0;
+};
+
+/// Votes in (model point, alpha) for each reference (paper Sec. 3.2; duplicate flags of Hinterstoisser et al.
+/// 2016) and returns the peaks, `peaks_per_reference` for each reference in order.
+/// `points`: all scene points, camera frame; `references`: indices into them.
+std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
+                                 const std::vector<uint32_t>& references, const VotingOptions& options);
+
+}  // namespace edgepose
