@@ -1,0 +1,83 @@
+/// edgepose: finds an object's 6D pose in a depth image. One file `<name>_command` for each command.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "client/cli/exit_codes.h"
+#include "client/cli/info_command.h"
+#include "client/cli/match_command.h"
+#include "client/cli/train_command.h"
+#include "common/error.h"
+#if __has_include("client/cli/eval_command.h")
+#include "client/cli/eval_command.h"
+#define HAVE_EVAL
+#endif
+#if __has_include("client/cli/study_command.h")
+#include "client/cli/study_command.h"
+#define HAVE_STUDY
+#endif
+#if __has_include("client/cli/render_command.h")
+#include "client/cli/render_command.h"
+#define HAVE_RENDER
+#endif
+
+namespace edgepose {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  edgepose train bolt.ply -o bolt.model
+  edgepose match bolt.model --depth frame.png --intrinsics 600,600,320,240
+  edgepose match bolt.model --depth frame.png --intrinsics scene_camera.json --overlay found.png --json
+  edgepose COMMAND --help
+
+Exit code: 0 found or done, 1 not found, 2 bad input (one line on stderr says what).)";
+
+/// One line for the person at the terminal, whatever the exception's text looks like.
+int report_bad_input(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "edgepose: " << message << std::endl;
+  return kExitBadInput;
+}
+
+int run(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    std::cout.flush();
+    if (!std::cout) throw InputError("standard output: cannot write; is the disk full?");
+    return kExitFound;
+  } catch (const CLI::RuntimeError& ended) {
+    std::cout.flush();
+    return ended.get_exit_code();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return report_bad_input(std::string(error.what()) + " (edgepose --help shows the options)");
+  } catch (const std::exception& error) {
+    return report_bad_input(error.what());
+  }
+}
+
+}  // namespace
+}  // namespace edgepose
+
+int main(int argc, char** argv) {
+  CLI::App app{"edgepose: finds an object's 6D pose in a depth image by edge-enhanced point pair features"};
+  app.name("edgepose");
+  app.set_version_flag("--version", "edgepose " EDGEPOSE_VERSION);
+  app.require_subcommand(1);
+  app.footer(edgepose::kExamples);
+  edgepose::add_train_command(app);
+  edgepose::add_info_command(app);
+  edgepose::add_match_command(app);
+#ifdef HAVE_EVAL
+  edgepose::add_eval_command(app);
+#endif
+#ifdef HAVE_STUDY
+  edgepose::add_study_command(app);
+#endif
+#ifdef HAVE_RENDER
+  edgepose::add_render_command(app);
+#endif
+  return edgepose::run(app, argc, argv);
+}

@@ -1,0 +1,65 @@
+#include "client/cli/progress_bar.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace edgepose {
+namespace {
+
+constexpr int kCells = 30;
+
+class Bar {
+ public:
+  explicit Bar(std::string label) : label_(std::move(label)), start_(Clock::now()) {}
+  Bar(const Bar&) = delete;
+  Bar& operator=(const Bar&) = delete;
+  ~Bar() { erase(); }
+
+  void show(double share) {
+    share = std::clamp(share, 0.0, 1.0);
+    const int percent = static_cast<int>(share * 100);
+    if (share >= 1) return erase();
+    if (percent == shown_percent_) return;
+    shown_percent_ = percent;
+    const int full = static_cast<int>(share * kCells);
+    const std::string cells = std::string(static_cast<size_t>(full), '#') +
+                              std::string(static_cast<size_t>(kCells - full), '.');
+    std::fprintf(stderr, "\r\033[K%s [%s] %3d %%%s", label_.c_str(), cells.c_str(), percent,
+                 remaining(share).c_str());
+    std::fflush(stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Guessed from the time so far; nothing while there is little to guess from.
+  std::string remaining(double share) const {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (share < 0.02 || elapsed < 1) return "";
+    return ", " + std::to_string(static_cast<long>(elapsed * (1 - share) / share + 0.5)) + " s left";
+  }
+
+  void erase() {
+    if (shown_percent_ < 0) return;
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+    shown_percent_ = -1;
+  }
+
+  std::string label_;
+  Clock::time_point start_;
+  int shown_percent_ = -1;
+};
+
+}  // namespace
+
+std::function<void(double)> progress_bar(const std::string& label) {
+  if (isatty(STDERR_FILENO) == 0) return [](double) {};
+  return [bar = std::make_shared<Bar>(label)](double share) { bar->show(share); };
+}
+
+}  // namespace edgepose

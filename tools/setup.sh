@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Installs what edgepose needs from Debian 12's own archive. Usage: tools/setup.sh [run|test|bench|fuzz]...
+#   run    build and use the program (default)
+#   test   run, and what the test command needs
+#   bench  run, and the peers it is compared with (PCL: 600 MB to fetch)
+#   fuzz   run, and clang's libFuzzer
+# Does nothing, and needs no root, where everything is there already.
+set -euo pipefail
+
+run=(g++ cmake ninja-build libeigen3-dev libopencv-dev libembree-dev libcli11-dev nlohmann-json3-dev
+     libtomlplusplus-dev libspdlog-dev gnuplot-nox)
+test=(git clang-format clang-tidy libgtest-dev libgmock-dev)
+bench=(libpcl-dev libopencv-contrib-dev libbenchmark-dev)
+fuzz=(clang)
+
+packages=("${run[@]}")
+for part in "${@:-run}"; do
+  case "$part" in
+    run) ;;
+    test) packages+=("${test[@]}") ;;
+    bench) packages+=("${bench[@]}") ;;
+    fuzz) packages+=("${fuzz[@]}") ;;
+    *) echo "setup.sh: unknown part '$part': expected run, test, bench or fuzz" >&2; exit 2 ;;
+  esac
+done
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null; then
+  as_root=(sudo)
+else
+  echo "setup.sh: these packages are missing and need root to install: ${missing[*]}" >&2
+  exit 1
+fi
+
+echo "Installing: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+apt_get() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 "$@" </dev/null; }
+apt_get update >/dev/null
+# One line a package is plenty: the whole output is shown only if it fails.
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! apt_get install -y --no-install-recommends "${missing[@]}" >"$log" 2>&1; then
+  cat "$log" >&2
+  exit 1
+fi
