@@ -1,0 +1,68 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "files/bop_results.h"
+#include "files/bop_set.h"
+#include "matcher/match.h"
+
+namespace edgepose {
+
+struct EvalOptions {
+  bool all_models = false;  ///< ask for every model in every image, not only for those the ground truth lists
+  TrainOptions train;
+  SceneOptions scene;
+  MatchOptions match;
+  int threads = 0;  ///< 0 = all cores; overrides those of the options above. Only times depend on it
+
+  /// Applied to every depth image before it is preprocessed (the noise study); its time is not counted.
+  std::function<DepthImage(const TestImage& image, const DepthImage& depth)> disturb;
+
+  /// Empty if sound, else one line that names the bad field.
+  std::string check() const;
+};
+
+/// A model of the set, trained.
+struct TrainedModel {
+  int object_id = 0;
+  Model model;
+  double seconds = 0;  ///< wall time of the training
+};
+
+/// The answer to "where is this object in this image?".
+struct EvalRow {
+  int scene_id = 0, image_id = 0, object_id = 0;
+  bool found = false;  ///< the matcher gave a pose, accepted or not; without one, pose and score mean nothing
+  bool accepted = false;  ///< ... and says that the object is there
+  double score = 0;
+  RigidTransform camera_T_model = RigidTransform::Identity();
+  double seconds = 0;        ///< wall time: matching, and this object's share of the preprocessing
+  double preprocessing = 0;  ///< [s] that share
+  StageTimes stages;
+  std::string reason;  ///< why nothing was accepted
+};
+
+struct Evaluation {
+  std::vector<EvalRow> rows;         ///< one per question asked, in the order of images and models
+  double wall_seconds = 0;           ///< of preprocessing and matching; reading images and training left out
+  double cpu_seconds = 0;            ///< of the same, all threads together
+  double peak_memory_megabytes = 0;  ///< of the process so far, training included
+};
+
+/// Trains every object of `set`. Throws InputError if the options are unsound or a mesh cannot be used.
+std::vector<TrainedModel> train_models(const TestSet& set, const EvalOptions& options,
+                                       const Progress& progress = {});
+
+/// Asks `models` for their poses in the images of `set`. Models of one image share its preprocessing.
+/// Throws InputError if the options are unsound or an image cannot be read.
+Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& models,
+                          const EvalOptions& options, const Progress& progress = {});
+
+/// Rows of a BOP result file: those with a pose; with `only_accepted`, those the matcher stands for.
+std::vector<BopResult> to_bop_results(const std::vector<EvalRow>& rows, bool only_accepted);
+
+/// The other way, for scoring a result file of any origin; every row counts as accepted.
+std::vector<EvalRow> from_bop_results(const std::vector<BopResult>& results);
+
+}  // namespace edgepose

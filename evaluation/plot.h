@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace edgepose {
+
+/// One line, or one group of bars, of a plot.
+struct Series {
+  std::string name;
+  std::vector<double> x;  ///< empty for bars: then value i stands over label i
+  std::vector<double> y;
+};
+
+struct Plot {
+  enum class Kind { kLines, kSteps, kBars, kStackedBars, kPoints };
+  Kind kind = Kind::kLines;
+  std::string file;  ///< without folder and ending
+  std::string title, x_label, y_label;
+  std::vector<std::string> labels;  ///< of the bars
+  std::vector<Series> series;
+  bool y_percent = false;  ///< y runs from 0 to 105 %
+  bool log_x = false;
+};
+
+/// Is gnuplot on the PATH?
+bool gnuplot_available();
+
+/// Draws FOLDER/FILE.png with gnuplot and leaves FOLDER/FILE.gp, the script with its data, beside it, so that
+/// the plot can be redrawn in another style. Throws InputError if gnuplot fails.
+void draw(const Plot& plot, const std::filesystem::path& folder);
+
+/// `text` without what Markdown tables or gnuplot would take for syntax. Names come from foreign files, and
+/// gnuplot runs what stands between backquotes.
+std::string harmless_text(const std::string& text);
+
+}  // namespace edgepose
