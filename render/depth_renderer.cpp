@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "render/parallel_rows.h"
+#include "matcher/parallel.h"
 
 namespace edgepose {
 namespace {
@@ -128,7 +128,8 @@ RenderedView DepthRenderer::render(const Camera& camera, int width, int height, 
   view.depth = {width, height, std::vector<float>(pixels, 0.0f)};
   view.object.assign(pixels, -1);
 
-  internal::parallel_rows(height, threads, [&](int v) {
+  parallel_for(static_cast<size_t>(height), threads, [&](size_t row) {
+    const int v = static_cast<int>(row);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "render/parallel_rows.h"
+#include "matcher/parallel.h"
 #include "render/pixel_random.h"
 
 namespace edgepose {
@@ -51,7 +51,8 @@ std::vector<float> correlated_noise(int width, int height, double radius, uint64
 
   const auto padded_height = static_cast<size_t>(height + 2 * reach), columns = static_cast<size_t>(width);
   std::vector<float> across(padded_height * columns), result(static_cast<size_t>(height) * columns);
-  internal::parallel_rows(height + 2 * reach, threads, [&](int row) {
+  parallel_for(static_cast<size_t>(height + 2 * reach), threads, [&](size_t line) {
+    const int row = static_cast<int>(line);
     std::vector<double> white(columns + static_cast<size_t>(2 * reach));
     for (int u = -reach; u < width + reach; ++u) {
       white[static_cast<size_t>(u + reach)] = PixelRandom(seed, u, row - reach).normal(kCorrelated);
@@ -62,7 +63,8 @@ std::vector<float> correlated_noise(int width, int height, double radius, uint64
       across[static_cast<size_t>(row) * columns + u] = static_cast<float>(sum);
     }
   });
-  internal::parallel_rows(height, threads, [&](int row) {
+  parallel_for(static_cast<size_t>(height), threads, [&](size_t line) {
+    const int row = static_cast<int>(line);
     for (size_t u = 0; u < columns; ++u) {
       double sum = 0;
       for (size_t i = 0; i < window.size(); ++i) {
@@ -170,7 +172,8 @@ DepthImage apply_sensor(const DepthImage& ideal, const Camera& camera, const Sen
   const double shared_weight = std::sqrt(sensor.correlated_share);
 
   DepthImage result{ideal.width, ideal.height, std::vector<float>(ideal.depth.size(), 0.0f)};
-  internal::parallel_rows(ideal.height, threads, [&](int v) {
+  parallel_for(static_cast<size_t>(ideal.height), threads, [&](size_t line) {
+    const int v = static_cast<int>(line);
     std::vector<bool> shadow(static_cast<size_t>(ideal.width), false);
     if (sensor.baseline > 0) shadow = projector_shadow(ideal, camera, sensor.baseline, v);
     for (int u = 0; u < ideal.width; ++u) {
@@ -206,7 +209,8 @@ DepthImage add_gaussian_noise(const DepthImage& image, const Camera& camera, dou
     throw std::invalid_argument("sigma: expected metres, 0 or more, found " + std::to_string(sigma));
   }
   DepthImage result = image;
-  internal::parallel_rows(image.height, threads, [&](int v) {
+  parallel_for(static_cast<size_t>(image.height), threads, [&](size_t line) {
+    const int v = static_cast<int>(line);
     for (int u = 0; u < image.width; ++u) {
       if (!measured(image.at(u, v))) continue;
       const double along_ray = sigma * PixelRandom(seed, u, v).normal(kWhite);
