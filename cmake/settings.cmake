@@ -12,6 +12,10 @@ if(CCACHE_PROGRAM)
 endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # False alarms of GCC 12 inside Eigen at -O3.
+  add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds)
+endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64")
   # SSE4.2 keeps Eigen's 16-byte alignment, so that objects may be shared with Debian's PCL;
   # anything wider (AVX) would not.
