@@ -150,8 +150,8 @@ TEST(SensorModel, SteepSurfacesAreNotSeen) {
            (kWidth * kHeight);
   };
   SensorModel sensor;
-  sensor.fading_angle_deg = 20;
-  sensor.blind_angle_deg = 70;
+  sensor.fading_angle_deg = 25;
+  sensor.blind_angle_deg = 65;
   EXPECT_EQ(share(0, sensor), 0);
   EXPECT_NEAR(share(45, sensor), 0.5, 0.05);
   sensor.blind_angle_deg = 40;
