@@ -26,8 +26,8 @@ class Bar {
     if (percent == shown_percent_) return;
     shown_percent_ = percent;
     const int full = static_cast<int>(share * kCells);
-    const std::string cells = std::string(static_cast<size_t>(full), '#') +
-                              std::string(static_cast<size_t>(kCells - full), '.');
+    const std::string cells =
+        std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kCells - full), '.');
     std::fprintf(stderr, "\r\033[K%s [%s] %3d %%%s", label_.c_str(), cells.c_str(), percent,
                  remaining(share).c_str());
     std::fflush(stderr);

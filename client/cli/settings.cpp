@@ -1,10 +1,10 @@
 #include "client/cli/settings.h"
 
+#include <toml++/toml.h>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "client/cli/nearest_word.h"
 #include "common/error.h"
@@ -81,9 +81,7 @@ std::string expected(const SettingKey& key) {
     std::string operator()(uint64_t*) const { return "an integer that is not negative"; }
     std::string operator()(float*) const { return "a number"; }
     std::string operator()(double*) const { return "a number"; }
-    std::string operator()(Verification*) const {
-      return "\"free_space\", \"paper\" or \"surface_overlap\"";
-    }
+    std::string operator()(Verification*) const { return "\"free_space\", \"paper\" or \"surface_overlap\""; }
   } type;
   return key.path + " = " + std::visit(type, key.field);
 }
@@ -177,8 +175,7 @@ Settings read_settings(const std::filesystem::path& path) {
     throw InputError::at(where(path, error.source()), "TOML", std::string(error.description()));
   }
   apply(table, "", path, setting_keys(settings));
-  for (const std::string& fault :
-       {settings.train.check(), settings.scene.check(), settings.match.check()}) {
+  for (const std::string& fault : {settings.train.check(), settings.scene.check(), settings.match.check()}) {
     if (!fault.empty()) throw InputError(path.string() + ": " + fault);
   }
   return settings;

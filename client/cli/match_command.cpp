@@ -1,0 +1,152 @@
+#include "client/cli/match_command.h"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "client/cli/exit_codes.h"
+#include "client/cli/match_overlay.h"
+#include "client/cli/match_report.h"
+#include "client/cli/mesh_input.h"
+#include "client/cli/model_input.h"
+#include "client/cli/plan_report.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/settings.h"
+#include "common/error.h"
+
+namespace edgepose {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kExamples = R"(Examples:
+  edgepose match bolt.model --depth frame.png --intrinsics 600,600,319.5,239.5
+  edgepose match bolt.model nut.model --depth 000003.png --intrinsics scene_camera.json --json
+  edgepose match bolt.model --depth frame.png --intrinsics camera_info.yaml --overlay found.png
+  edgepose match bolt.model --cloud scan.pcd --unit m --viewpoint 0,0,0
+  edgepose match vertebra.model --depth d.png --intrinsics K.json --plan drill_plan.json
+
+Exit code: 0 if at least one model was found, 1 if none was, 2 for bad input.)";
+
+struct MatchCommand {
+  std::vector<std::filesystem::path> models, meshes;
+  LengthUnit cloud_unit = LengthUnit::kMillimetre, mesh_unit = LengthUnit::kMillimetre;
+  SceneSource source;
+  std::filesystem::path config, overlay, plan;
+  bool as_json = false, paper_mode = false;
+  std::optional<int> max_instances, threads;
+  std::optional<double> accept_score;
+
+  void run() const;
+
+ private:
+  Settings settings() const;
+  std::vector<ModelInput> read_models(const TrainOptions& options) const;
+  void print(const std::vector<NamedResult>& results, const std::optional<PlanReport>& targets,
+             const SceneInput& scene, double preprocessing_seconds) const;
+};
+
+Settings MatchCommand::settings() const {
+  Settings settings = config.empty() ? Settings{} : read_settings(config);
+  if (paper_mode) settings.match.verification = Verification::kPaper;
+  if (max_instances) settings.match.max_instances = *max_instances;
+  if (accept_score) settings.match.accept_score = static_cast<float>(*accept_score);
+  if (threads) settings.train.threads = settings.scene.threads = settings.match.threads = *threads;
+  return settings;
+}
+
+std::vector<ModelInput> MatchCommand::read_models(const TrainOptions& options) const {
+  if (!meshes.empty() && meshes.size() != models.size()) {
+    throw InputError::at("--mesh", "one mesh for each of the " + std::to_string(models.size()) + " models",
+                         std::to_string(meshes.size()));
+  }
+  std::vector<ModelInput> inputs;
+  for (size_t i = 0; i < models.size(); ++i) {
+    inputs.push_back(load_or_train(models[i], mesh_unit, options));
+    if (!meshes.empty()) inputs.back().mesh = read_sound_mesh(meshes[i], mesh_unit).mesh;
+  }
+  return inputs;
+}
+
+void MatchCommand::run() const {
+  const Settings options = settings();
+  if (!plan.empty() && models.size() != 1) {
+    throw InputError::at("--plan", "one MODEL, the one that it was made for", std::to_string(models.size()));
+  }
+  const std::optional<DrillPlan> drill_plan =
+      plan.empty() ? std::nullopt : std::optional(read_drill_plan(plan));
+  const SceneInput input = read_scene(source, cloud_unit);
+  const std::vector<ModelInput> inputs = read_models(options.train);
+
+  const Scene scene = prepare_scene(input.image, input.camera, options.scene);
+  std::vector<NamedResult> results;
+  for (const ModelInput& model : inputs) {
+    results.push_back({model.model.name(), model.file.string(), model.model.diameter(), model.model.centre(),
+                       model.model.symmetries(), match(scene, model.model, options.match)});
+  }
+
+  if (!overlay.empty()) write_match_overlay(overlay, input, inputs, results);
+  bool any_found = false;
+  for (NamedResult& named : results) {
+    named.result = in_frame(input.frame_T_camera, std::move(named.result));
+    any_found = any_found || named.found();
+  }
+  std::optional<PlanReport> targets;
+  if (drill_plan && any_found) targets = report_plan(*drill_plan, results.front());
+  print(results, targets, input, scene.preprocessing_seconds());
+  if (!any_found) exit_not_found();
+}
+
+void MatchCommand::print(const std::vector<NamedResult>& results, const std::optional<PlanReport>& targets,
+                         const SceneInput& scene, double preprocessing_seconds) const {
+  if (!as_json) {
+    print_table(std::cout, results, scene.frame, preprocessing_seconds);
+    if (targets) print_table(std::cout, *targets, scene.frame);
+    if (!overlay.empty()) std::cout << "overlay: " << overlay.string() << '\n';
+    return;
+  }
+  json models_found = json::array();
+  for (const NamedResult& named : results) models_found.push_back(to_json(named, scene.frame));
+  json report = {{"edgepose", EDGEPOSE_VERSION},
+                 {"scene", scene.file},
+                 {"frame", scene.frame},
+                 {"preprocessing_seconds", preprocessing_seconds},
+                 {"models", models_found}};
+  if (targets) report["plan"] = to_json(*targets, scene.frame);
+  std::cout << report.dump(2) << '\n';
+}
+
+}  // namespace
+
+void add_match_command(CLI::App& app) {
+  auto command = std::make_shared<MatchCommand>();
+  CLI::App* match = app.add_subcommand("match", "Find models in a depth image or cloud");
+  match->add_option("MODEL", command->models, "Trained models, or meshes to train on the fly")->required();
+  add_scene_options(*match, command->source);
+  add_unit_option(*match, "--unit", command->cloud_unit, "the cloud and its viewpoint");
+  add_unit_option(*match, "--mesh-unit", command->mesh_unit, "meshes given as MODEL or --mesh");
+  match->add_flag("--json", command->as_json, "Print JSON (docs/match_json.md) instead of a table");
+  match->add_option("--overlay", command->overlay, "Write a picture of the found poses over the depth image");
+  match
+      ->add_option("--mesh", command->meshes,
+                   "The models' meshes, in their order, for the overlay (default: the models' own outlines)")
+      ->needs("--overlay");
+  match->add_option("--plan", command->plan,
+                    "Drill plan (JSON) whose targets are printed where they were found");
+  match
+      ->add_option("--max-instances", command->max_instances,
+                   "Instances of each model to look for (default 1)")
+      ->check(CLI::Range(1, 1000));
+  match->add_option("--accept", command->accept_score, "Score from which a pose counts as found")
+      ->check(CLI::Range(0.0, 1.0));
+  match->add_flag("--paper-mode", command->paper_mode,
+                  "Verify as the paper does: always answers with a pose");
+  match->add_option("--config", command->config, "TOML file with any option (config/edgepose.toml)");
+  match->add_option("--threads", command->threads, "Threads; 0 = all cores; never changes the result")
+      ->check(CLI::Range(0, kMaxThreads));
+  match->footer(kExamples);
+  match->callback([command] { command->run(); });
+}
+
+}  // namespace edgepose

@@ -1,0 +1,157 @@
+#include "client/cli/match_report.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <ostream>
+
+#include "client/cli/text.h"
+
+namespace edgepose {
+namespace {
+
+using nlohmann::json;
+
+template <class Vector>
+json to_array(const Vector& vector) {
+  json array = json::array();
+  for (Eigen::Index i = 0; i < vector.size(); ++i) array.push_back(static_cast<double>(vector[i]));
+  return array;
+}
+
+json to_nested(const Eigen::MatrixXd& matrix) {
+  json rows = json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(to_array(Eigen::VectorXd(matrix.row(i))));
+  return rows;
+}
+
+/// (w, x, y, z) with w >= 0, so that equal rotations print equally.
+json quaternion_wxyz(const RigidTransform& pose) {
+  Eigen::Quaterniond q(pose.linear());
+  q.normalize();
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
+json to_json(const Detection& detection, const std::string& frame) {
+  json equivalent = json::array();
+  for (const RigidTransform& pose : detection.equivalent) equivalent.push_back(edgepose::to_json(pose));
+  return {{frame + "_T_model", edgepose::to_json(detection.camera_T_model)},
+          {"quaternion_wxyz", quaternion_wxyz(detection.camera_T_model)},
+          {"translation_m", to_array(Eigen::Vector3d(detection.camera_T_model.translation()))},
+          {"score", detection.score},
+          {"accepted", detection.accepted},
+          {"edge_score", detection.edge_score},
+          {"coverage", detection.coverage},
+          {"violations", detection.violations},
+          {"margin", detection.margin},
+          {"votes", detection.votes},
+          {"covariance", to_nested(detection.covariance)},
+          {"equivalent", equivalent}};
+}
+
+json to_json(const Symmetries& symmetries) {
+  json discrete = json::array(), continuous = json::array();
+  for (const RigidTransform& pose : symmetries.discrete) discrete.push_back(edgepose::to_json(pose));
+  for (const SymmetryAxis& axis : symmetries.continuous) {
+    continuous.push_back({{"point_m", to_array(axis.point)}, {"direction", to_array(axis.direction)}});
+  }
+  return {{"discrete_model_T_model", discrete}, {"continuous", continuous}};
+}
+
+/// One standard deviation along the worst direction, of rows and columns [first, first + 3).
+double worst_sigma(const Eigen::Matrix<double, 6, 6>& covariance, Eigen::Index first) {
+  const Eigen::Matrix3d block = covariance.block<3, 3>(first, first);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+void print_detection(std::ostream& out, const std::string& name, const Detection& detection, double seconds) {
+  const Eigen::Vector3d t = 1e3 * detection.camera_T_model.translation();
+  const Eigen::AngleAxisd turn(detection.camera_T_model.linear());
+  const Eigen::Vector3d r = kDegrees * turn.angle() * turn.axis();
+  out << formatted(
+      "%-16.16s %-5s %8.2f %8.2f %8.2f  %7.2f %7.2f %7.2f  %5.2f %5.2f %5.2f %5.2f %6.2f  %7.1f\n",
+      name.c_str(), detection.accepted ? "yes" : "no", t.x(), t.y(), t.z(), r.x(), r.y(), r.z(),
+      detection.score, detection.coverage, detection.violations, detection.edge_score, detection.margin,
+      1e3 * seconds);
+}
+
+void print_certainty(std::ostream& out, const Detection& detection) {
+  const double shift = 1e3 * worst_sigma(detection.covariance, 3);
+  const double turn = kDegrees * worst_sigma(detection.covariance, 0);
+  if (shift > 0 || turn > 0) {
+    out << formatted("%-16s one sigma, worst direction: %.3f mm at the centre, %.3f degrees\n", "", shift,
+                     turn);
+  }
+  if (!detection.equivalent.empty()) {
+    out << formatted("%-16s symmetric: %zu more %s the same (--json lists %s)\n", "",
+                     detection.equivalent.size(),
+                     detection.equivalent.size() == 1 ? "pose looks" : "poses look",
+                     detection.equivalent.size() == 1 ? "it" : "them");
+  }
+}
+
+}  // namespace
+
+MatchResult in_frame(const RigidTransform& target_T_camera, MatchResult result) {
+  Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
+  turn.topLeftCorner<3, 3>() = target_T_camera.linear();
+  turn.bottomRightCorner<3, 3>() = target_T_camera.linear();
+  for (Detection& detection : result.detections) {
+    detection.camera_T_model = target_T_camera * detection.camera_T_model;
+    for (RigidTransform& pose : detection.equivalent) pose = target_T_camera * pose;
+    detection.covariance = turn * detection.covariance * turn.transpose();
+  }
+  return result;
+}
+
+json to_json(const RigidTransform& pose) { return to_nested(pose.matrix()); }
+
+json to_json(const NamedResult& found, const std::string& frame) {
+  const MatchResult& result = found.result;
+  json detections = json::array();
+  for (const Detection& detection : result.detections) detections.push_back(to_json(detection, frame));
+  return {{"model", found.name},
+          {"file", found.file},
+          {"diameter_m", found.diameter},
+          {"centre_m", to_array(found.centre)},
+          {"symmetries", to_json(found.symmetries)},
+          {"found", found.found()},
+          {"reason", result.reason},
+          {"detections", detections},
+          {"scene_points", result.scene_points},
+          {"reference_points", result.reference_points},
+          {"candidates", result.candidates},
+          {"seconds",
+           {{"sampling", result.times.sampling},
+            {"voting", result.times.voting},
+            {"clustering", result.times.clustering},
+            {"verification", result.times.verification},
+            {"refinement", result.times.refinement},
+            {"total", result.times.total()}}}};
+}
+
+void print_table(std::ostream& out, const std::vector<NamedResult>& results, const std::string& frame,
+                 double preprocessing_seconds) {
+  out << formatted("%-16s %-5s %26s  %23s  %5s %5s %5s %5s %6s  %7s\n", "model", "found",
+                   ("position in " + frame + " [mm]").c_str(), "rotation vector [deg]", "score", "cover",
+                   "viol", "S", "margin", "ms");
+  for (const NamedResult& named : results) {
+    const MatchResult& result = named.result;
+    for (const Detection& detection : result.detections) {
+      print_detection(out, named.name, detection, result.times.total());
+      print_certainty(out, detection);
+    }
+    if (!named.found()) out << formatted("%-16.16s not found: ", named.name.c_str()) << result.reason << '\n';
+  }
+  out << formatted("preprocessing %.1f ms, shared by %zu model%s\n", 1e3 * preprocessing_seconds,
+                   results.size(), results.size() == 1 ? "" : "s");
+}
+
+}  // namespace edgepose

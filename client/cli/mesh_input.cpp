@@ -1,0 +1,46 @@
+#include "client/cli/mesh_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <map>
+#include <ostream>
+
+#include "matcher/model_block.h"
+
+namespace edgepose {
+
+SoundMesh read_sound_mesh(const std::filesystem::path& path, LengthUnit unit) {
+  Mesh mesh = read_mesh(path, unit);
+  MeshHealth health = check_mesh(mesh);
+  mesh = mend_mesh(std::move(mesh), health, path.string());
+  return {std::move(mesh), std::move(health)};
+}
+
+bool is_mesh_file(const std::filesystem::path& path) {
+  std::array<char, kModelMagic.size()> start{};
+  if (std::ifstream(path, std::ios::binary).read(start.data(), start.size()) && start == kModelMagic) {
+    return false;
+  }
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".ply" || extension == ".stl" || extension == ".obj" || extension == ".pcd";
+}
+
+void print_notes(std::ostream& out, const std::filesystem::path& path, const MeshHealth& health) {
+  for (const std::string& line : health.mended) out << path.string() << ": mended: " << line << '\n';
+  for (const std::string& line : health.warnings) out << path.string() << ": warning: " << line << '\n';
+}
+
+void add_unit_option(CLI::App& command, const std::string& option, LengthUnit& unit,
+                     const std::string& of_what) {
+  static const std::map<std::string, LengthUnit> kUnits = {{"mm", LengthUnit::kMillimetre},
+                                                           {"m", LengthUnit::kMetre}};
+  command.add_option(option, unit, "Unit of " + of_what + ": mm (default) or m")
+      ->transform(CLI::CheckedTransformer(kUnits, CLI::ignore_case))
+      ->type_name("mm|m");
+}
+
+}  // namespace edgepose

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The layers hold: who may include whom (README, "Which file to read first"). Usage: style_test.sh SOURCE_DIR
+set -uo pipefail
+cd "${1:?usage: style_test.sh SOURCE_DIR}" || exit 2
+faults=0
+
+# forbid FOLDER PATTERN REASON: no source in FOLDER has an #include that matches PATTERN (extended regex, applied
+# to what stands between the quotes or brackets).
+forbid() {
+  [ -d "$1" ] || return 0
+  local hits
+  hits=$(grep -rnE --include='*.h' --include='*.cpp' "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($2)" "$1")
+  if [ -n "$hits" ]; then
+    printf '%s\n   %s\n' "$hits" "$3"
+    faults=1
+  fi
+}
+
+# Each layer includes only layers below it.
+forbid common '(matcher|files|render|evaluation|client|server|bench|tests)/' 'common includes no other folder'
+forbid matcher '(common|files|render|evaluation|client|server|bench|tests)/' 'the matcher includes only matcher/'
+forbid files '(render|evaluation|client|server|bench|tests)/' 'files stands below these'
+forbid render '(evaluation|client|server|bench|tests)/' 'render stands below these'
+forbid evaluation '(client|server|bench|tests)/' 'evaluation stands below these'
+forbid client '(server|bench|tests)/' 'client and server never include each other'
+forbid server '(client|bench|tests)/' 'client and server never include each other'
+
+# The matcher is pure: besides its own headers, Eigen and the standard library (which has no '.' or '/' in a name).
+outside=$(grep -rnE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include' matcher |
+  grep -vE 'include[[:space:]]*("matcher/|<Eigen/|<[a-z_0-9]+>)')
+if [ -n "$outside" ]; then
+  printf '%s\n   the matcher knows Eigen and the standard library only\n' "$outside"
+  faults=1
+fi
+forbid matcher '(fstream|filesystem|iostream|cstdio)>' 'the matcher neither reads nor writes files, nor prints'
+
+# PCL costs 10 s and 1 GB a translation unit: one, in the benchmark.
+pcl=$(grep -rlE --include='*.h' --include='*.cpp' '#include <pcl/' . --exclude-dir=build | grep -v '^\./bench/pcl_[a-z_]*\.cpp$')
+if [ -n "$pcl" ]; then
+  printf '%s\n   PCL belongs in bench/pcl_*.cpp\n' "$pcl"
+  faults=1
+fi
+
+# Headers are guarded, and included with their folder.
+while IFS= read -r header; do
+  head -n 1 "$header" | grep -q '^#pragma once$' || { echo "$header: does not start with #pragma once"; faults=1; }
+done < <(find common matcher files render evaluation client bench server -name '*.h' 2>/dev/null)
+bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher files render evaluation client bench)
+if [ -n "$bare" ]; then
+  printf '%s\n   include as "folder/file.h"\n' "$bare"
+  faults=1
+fi
+
+[ "$faults" -eq 0 ] && echo "the layers hold"
+exit "$faults"
