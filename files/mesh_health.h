@@ -25,23 +25,27 @@ struct MeshHealth {
   size_t duplicate_triangles = 0;   ///< the same three places in the same orientation once more
   size_t bad_normals = 0;           ///< zero or not finite
   size_t non_unit_normals = 0;      ///< length differs from 1 by more than 1 %, not counting bad ones
-  size_t opposed_normals = 0;       ///< more than 90 degrees from the surface that they belong to
+  size_t opposed_normals = 0;       ///< more than 90 degrees from the surface, once that faces outwards
   size_t edges = 0;                 ///< of the usable triangles
   size_t open_edges = 0;            ///< with a triangle on one side only
   size_t non_manifold_edges = 0;    ///< with more than two triangles
   size_t inconsistent_edges = 0;    ///< whose two triangles disagree about the outside
   size_t parts = 0;                 ///< connected pieces of surface
+  size_t inverted_parts = 0;        ///< of them, those that face inwards
+  size_t undecided_parts = 0;       ///< of them, open ones that look the same from both sides
+  size_t unorientable_parts = 0;    ///< of them, those with one side only (Moebius strip)
   double signed_volume = 0;         ///< [m^3] negative: inside out (means something only if closed)
-  double back_share = 0;            ///< [0, 1] of the surface seen from around, the share seen from behind
-  double diameter = 0;  ///< [m] largest distance between two used points (never too large, at most 1 % short)
-  bool is_cloud = false;  ///< no triangles
-  bool inverted = false;  ///< normals or triangles point inwards
+  double diameter = 0;              ///< [m] largest distance between two used points; rarely 1 % too small
+  bool is_cloud = false;            ///< no triangles
+  bool inverted = false;            ///< normals or triangles point inwards
 
   std::vector<std::string> mended;    ///< what mend_mesh() did, a line each
-  std::vector<std::string> warnings;  ///< what the user should know and nobody mended, a line each
+  std::vector<std::string> warnings;  ///< what cannot be mended but need not stop anyone, a line each
 
   bool closed() const { return edges > 0 && open_edges == 0 && non_manifold_edges == 0; }
-  double open_edge_share() const { return edges ? static_cast<double>(open_edges) / edges : 0.0; }
+  double open_edge_share() const {
+    return edges ? static_cast<double>(open_edges) / static_cast<double>(edges) : 0.0;
+  }
   /// Empty if the diameter is within the limits, else one line with the unit that would make sense.
   std::string size_complaint() const;
 };
