@@ -1,0 +1,6 @@
+#include "fuzz/mesh_fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  edgepose::fuzz_mesh(data, size, "fuzz.stl");
+  return 0;
+}
