@@ -78,6 +78,10 @@ void MatchCommand::run() const {
       plan.empty() ? std::nullopt : std::optional(read_drill_plan(plan));
   const SceneInput input = read_scene(source, cloud_unit);
   const std::vector<ModelInput> inputs = read_models(options.train);
+  if (drill_plan) {
+    check_drill_plan(*drill_plan, inputs.front().model.centre(), inputs.front().model.diameter(),
+                     plan.string());
+  }
 
   const Scene scene = prepare_scene(input.image, input.camera, options.scene);
   std::vector<NamedResult> results;
@@ -86,7 +90,10 @@ void MatchCommand::run() const {
                        model.model.symmetries(), match(scene, model.model, options.match)});
   }
 
-  if (!overlay.empty()) write_match_overlay(overlay, input, inputs, results);
+  if (!overlay.empty()) {
+    write_match_overlay(overlay, input, inputs, results,
+                        drill_plan ? overlay_targets(*drill_plan) : std::vector<OverlayTarget>{});
+  }
   bool any_found = false;
   for (NamedResult& named : results) {
     named.result = in_frame(input.frame_T_camera, std::move(named.result));

@@ -1,0 +1,118 @@
+#include "client/cli/plan_report.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <ostream>
+
+#include "client/cli/text.h"
+
+namespace edgepose {
+namespace {
+
+using nlohmann::json;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+double worst_sigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+/// A perturbation (w, t) about `centre` moves `point` by w x (point - centre) + t.
+double sigma_across(const Eigen::Vector3d& point, const Eigen::Vector3d& axis, const Eigen::Vector3d& centre,
+                    const Matrix6d& covariance) {
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << -cross_matrix(point - centre), Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+  return worst_sigma(across * jacobian * covariance * jacobian.transpose() * across);
+}
+
+PlacedTarget place(const DrillTarget& planned, const Detection& detection,
+                   const Eigen::Vector3d& model_centre) {
+  const RigidTransform& pose = detection.camera_T_model;
+  PlacedTarget placed{planned};
+  DrillTarget& target = placed.target;
+  target.entry = pose * planned.entry;
+  target.axis = pose.linear() * planned.axis;
+  const Eigen::Vector3d centre = pose * model_centre;
+  const Matrix6d& covariance = detection.covariance;
+  placed.entry_sigma = sigma_across(target.entry, target.axis, centre, covariance);
+  placed.bottom_sigma =
+      sigma_across(target.entry + target.depth * target.axis, target.axis, centre, covariance);
+  const Eigen::Matrix3d turn = cross_matrix(target.axis);
+  placed.angle_sigma = worst_sigma(turn * covariance.topLeftCorner<3, 3>() * turn.transpose());
+  placed.certain = 2 * std::max(placed.entry_sigma, placed.bottom_sigma) <= target.position_tolerance &&
+                   2 * placed.angle_sigma <= target.angle_tolerance && placed.entry_sigma > 0;
+  return placed;
+}
+
+json to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+PlanReport report_plan(const DrillPlan& plan, const NamedResult& found) {
+  PlanReport report;
+  for (size_t i = 0; i < found.result.detections.size(); ++i) {
+    const Detection& detection = found.result.detections[i];
+    if (!detection.accepted) continue;
+    for (const DrillTarget& target : plan.targets) {
+      report.targets.push_back(place(target, detection, found.centre));
+      report.targets.back().instance = i;
+    }
+  }
+  return report;
+}
+
+json to_json(const PlanReport& report, const std::string& frame) {
+  json rows = json::array();
+  for (const PlacedTarget& placed : report.targets) {
+    rows.push_back({{"name", placed.target.name},
+                    {"instance", placed.instance},
+                    {"frame", frame},
+                    {"entry_m", to_array(placed.target.entry)},
+                    {"axis", to_array(placed.target.axis)},
+                    {"depth_m", placed.target.depth},
+                    {"diameter_m", placed.target.diameter},
+                    {"entry_sigma_m", placed.entry_sigma},
+                    {"bottom_sigma_m", placed.bottom_sigma},
+                    {"angle_sigma_rad", placed.angle_sigma},
+                    {"position_tolerance_m", placed.target.position_tolerance},
+                    {"angle_tolerance_rad", placed.target.angle_tolerance},
+                    {"two_sigma_within_tolerance", placed.certain}});
+  }
+  return rows;
+}
+
+void print_table(std::ostream& out, const PlanReport& report, const std::string& frame) {
+  out << formatted("\n%-16s %26s  %20s  %8s  %14s  %s\n", "target", ("entry in " + frame + " [mm]").c_str(),
+                   "axis", "depth mm", "2 sigma mm deg", "within tolerance");
+  for (const PlacedTarget& placed : report.targets) {
+    const Eigen::Vector3d entry = 1e3 * placed.target.entry, &axis = placed.target.axis;
+    out << formatted(
+        "%-16.16s %8.2f %8.2f %8.2f  %6.3f %6.3f %6.3f  %8.1f  %7.3f %6.3f  %s (%.1f mm, %.1f deg)\n",
+        placed.target.name.c_str(), entry.x(), entry.y(), entry.z(), axis.x(), axis.y(), axis.z(),
+        1e3 * placed.target.depth, 2e3 * std::max(placed.entry_sigma, placed.bottom_sigma),
+        2 * kDegrees * placed.angle_sigma, placed.certain ? "yes" : "NO",
+        1e3 * placed.target.position_tolerance, kDegrees * placed.target.angle_tolerance);
+  }
+}
+
+std::vector<OverlayTarget> overlay_targets(const DrillPlan& plan) {
+  std::vector<OverlayTarget> targets;
+  for (const DrillTarget& target : plan.targets) {
+    targets.push_back({target.name, target.entry, target.axis, target.depth, target.diameter});
+  }
+  return targets;
+}
+
+}  // namespace edgepose
