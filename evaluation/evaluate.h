@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "files/bop_results.h"
-#include "files/bop_set.h"
+#include "files/test_set.h"
 #include "matcher/match.h"
 
 namespace edgepose {
@@ -17,7 +17,7 @@ struct EvalOptions {
   int threads = 0;  ///< 0 = all cores; overrides those of the options above. Only times depend on it
 
   /// Applied to every depth image before it is preprocessed (the noise study); its time is not counted.
-  std::function<DepthImage(const TestImage& image, const DepthImage& depth)> disturb;
+  std::function<DepthImage(const TestImage& image, const DepthImage& depth, const Camera& camera)> disturb;
 
   /// Empty if sound, else one line that names the bad field.
   std::string check() const;
@@ -36,7 +36,7 @@ struct EvalRow {
   bool found = false;  ///< the matcher gave a pose, accepted or not; without one, pose and score mean nothing
   bool accepted = false;  ///< ... and says that the object is there
   double score = 0;
-  RigidTransform camera_T_model = RigidTransform::Identity();
+  RigidTransform camera_T_model = RigidTransform::Identity();  ///< in the frame of the ground truth
   double seconds = 0;        ///< wall time: matching, and this object's share of the preprocessing
   double preprocessing = 0;  ///< [s] that share
   StageTimes stages;

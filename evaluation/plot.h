@@ -17,8 +17,8 @@ struct Plot {
   Kind kind = Kind::kLines;
   std::string file;  ///< without folder and ending
   std::string title, x_label, y_label;
-  std::vector<std::string> labels;  ///< of the bars
-  std::vector<Series> series;
+  std::vector<std::string> labels = {};  ///< of the bars
+  std::vector<Series> series = {};
   bool y_percent = false;  ///< y runs from 0 to 105 %
   bool log_x = false;
 };

@@ -35,7 +35,8 @@ struct PoseError::Tree {
       return false;
     }
   };
-  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3>;
+  using Index =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, size_t>;
 
   explicit Tree(Points p)
       : points(std::move(p)), index(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(10)) {

@@ -1,0 +1,190 @@
+#include "evaluation/evaluate.h"
+
+#include <chrono>
+#include <set>
+#include <stdexcept>
+
+#include "common/error.h"
+#include "evaluation/resources.h"
+#include "files/depth_file.h"
+#include "files/mesh_file.h"
+#include "files/mesh_health.h"
+
+namespace edgepose {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The matcher and the readers know nothing of files: says which one a complaint is about.
+template <typename Work>
+auto naming(const std::string& file, Work&& work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file + ": " + error.what());
+  }
+}
+
+void require_sound(const EvalOptions& options) {
+  if (const std::string complaint = options.check(); !complaint.empty()) throw InputError(complaint);
+}
+
+/// The models to ask for in one image.
+std::vector<const TrainedModel*> models_for(const TestImage& image, const std::vector<TrainedModel>& models,
+                                            bool all_models) {
+  std::set<int> listed;
+  for (const GroundTruth& truth : image.truth) listed.insert(truth.object_id);
+  std::vector<const TrainedModel*> asked;
+  for (const TrainedModel& model : models)
+    if (all_models || listed.count(model.object_id)) asked.push_back(&model);
+  return asked;
+}
+
+EvalRow ask(const TestImage& image, const Scene& scene, const TrainedModel& model,
+            const MatchOptions& options) {
+  EvalRow row;
+  row.scene_id = image.scene_id;
+  row.image_id = image.image_id;
+  row.object_id = model.object_id;
+  const auto start = Clock::now();
+  const MatchResult result = match(scene, model.model, options);
+  row.seconds = seconds_since(start);
+  row.stages = result.times;
+  row.reason = result.reason;
+  if (!result.detections.empty()) {
+    const Detection& best = result.detections.front();
+    row.found = true;
+    row.accepted = best.accepted;
+    row.score = best.score;
+    row.camera_T_model = best.camera_T_model;
+  }
+  return row;
+}
+
+/// A depth image, or a cloud projected to one.
+struct SceneInput {
+  DepthImage depth;
+  Camera camera;
+  RigidTransform truth_T_camera = RigidTransform::Identity();  ///< into the frame of the ground truth
+  double seconds = 0;                                          ///< that the projection took
+};
+
+SceneInput read_input(const TestImage& image) {
+  if (image.cloud.empty()) return {read_depth_png(image.depth, image.depth_scale), image.camera};
+  const Cloud cloud = read_cloud(image.cloud, LengthUnit::kMillimetre);
+  const auto start = Clock::now();
+  ProjectedCloud projected =
+      naming(image.cloud.string(), [&] { return project_cloud(cloud.vertices, cloud.viewpoint); });
+  return {std::move(projected.image), projected.camera, projected.cloud_T_camera, seconds_since(start)};
+}
+
+Mesh read_sound_mesh(const std::filesystem::path& file) {
+  Mesh mesh = read_mesh(file);
+  MeshHealth health = check_mesh(mesh);
+  return mend_mesh(std::move(mesh), health, file.string());
+}
+
+/// Asks for all models of one image; adds rows and times.
+void evaluate_image(const TestImage& image, const std::vector<const TrainedModel*>& asked,
+                    const EvalOptions& options, Evaluation& evaluation) {
+  SceneInput input = read_input(image);
+  if (options.disturb) input.depth = options.disturb(image, input.depth, input.camera);
+  const auto start = Clock::now();
+  const double cpu_start = process_cpu_seconds();
+  const std::string file = (image.cloud.empty() ? image.depth : image.cloud).string();
+  const Scene scene = naming(file, [&] { return prepare_scene(input.depth, input.camera, options.scene); });
+  const double preprocessing = (input.seconds + seconds_since(start)) / static_cast<double>(asked.size());
+  for (const TrainedModel* model : asked) {
+    EvalRow row = ask(image, scene, *model, options.match);
+    row.preprocessing = preprocessing;
+    row.seconds += preprocessing;
+    row.camera_T_model = input.truth_T_camera * row.camera_T_model;
+    evaluation.rows.push_back(std::move(row));
+  }
+  evaluation.cpu_seconds += process_cpu_seconds() - cpu_start;
+  evaluation.wall_seconds += input.seconds + seconds_since(start);
+}
+
+}  // namespace
+
+std::string EvalOptions::check() const {
+  if (threads < 0) return "threads: expected 0 (all cores) or more, found " + std::to_string(threads);
+  for (const std::string& complaint : {train.check(), scene.check(), match.check()})
+    if (!complaint.empty()) return complaint;
+  return "";
+}
+
+std::vector<TrainedModel> train_models(const TestSet& set, const EvalOptions& options,
+                                       const Progress& progress) {
+  require_sound(options);
+  TrainOptions train = options.train;
+  train.threads = options.threads;
+  const double count = static_cast<double>(set.objects.size());
+  std::vector<TrainedModel> models;
+  for (const TestObject& object : set.objects) {
+    const double done = static_cast<double>(models.size());
+    const Progress part = [&](double share) {
+      if (progress) progress((done + share) / count);
+    };
+    const Mesh mesh = read_sound_mesh(object.mesh);
+    const auto start = Clock::now();
+    Model model = naming(object.mesh.string(),
+                         [&] { return train_model(mesh, object.name, train, object.symmetries, part); });
+    models.push_back({object.id, std::move(model), seconds_since(start)});
+  }
+  if (progress) progress(1);
+  return models;
+}
+
+Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& models,
+                          const EvalOptions& given, const Progress& progress) {
+  require_sound(given);
+  EvalOptions options = given;
+  options.scene.threads = options.match.threads = options.threads;
+  Evaluation evaluation;
+  size_t images_done = 0;
+  for (const TestImage& image : set.images) {
+    const auto asked = models_for(image, models, options.all_models);
+    if (!asked.empty()) evaluate_image(image, asked, options, evaluation);
+    if (progress) progress(static_cast<double>(++images_done) / static_cast<double>(set.images.size()));
+  }
+  evaluation.peak_memory_megabytes = peak_memory_megabytes();
+  return evaluation;
+}
+
+std::vector<BopResult> to_bop_results(const std::vector<EvalRow>& rows, bool only_accepted) {
+  std::vector<BopResult> results;
+  for (const EvalRow& row : rows) {
+    if (!row.found || (only_accepted && !row.accepted)) continue;
+    BopResult result;
+    result.scene_id = row.scene_id;
+    result.image_id = row.image_id;
+    result.object_id = row.object_id;
+    result.score = row.score;
+    result.camera_T_model = row.camera_T_model;
+    result.time = row.seconds;
+    results.push_back(result);
+  }
+  return results;
+}
+
+std::vector<EvalRow> from_bop_results(const std::vector<BopResult>& results) {
+  std::vector<EvalRow> rows;
+  for (const BopResult& result : results) {
+    EvalRow row;
+    row.scene_id = result.scene_id;
+    row.image_id = result.image_id;
+    row.object_id = result.object_id;
+    row.found = row.accepted = true;
+    row.score = result.score;
+    row.camera_T_model = result.camera_T_model;
+    row.seconds = result.time;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace edgepose
