@@ -15,5 +15,5 @@ echo
 "$edgepose" train models/phantom/phantom.ply -o "$out/phantom.model"
 echo
 "$edgepose" match "$out/phantom.model" --depth models/phantom/scene/depth.png \
-  --intrinsics models/phantom/scene/scene_camera.json --plan models/phantom/drill_plan.json \
-  --overlay "$out/overlay.png"
+  --intrinsics models/phantom/scene/camera.json --plan models/phantom/drill_plan.json \
+  --mesh models/phantom/phantom.ply --overlay "$out/overlay.png"

@@ -8,7 +8,7 @@
 set -euo pipefail
 
 run=(g++ cmake ninja-build libeigen3-dev libopencv-dev libembree-dev libcli11-dev nlohmann-json3-dev
-     libtomlplusplus-dev libspdlog-dev gnuplot-nox)
+     libtomlplusplus-dev libyaml-cpp-dev libpng-dev liblzf-dev libnanoflann-dev gnuplot-nox)
 test=(git clang-format clang-tidy libgtest-dev libgmock-dev)
 bench=(libpcl-dev libopencv-contrib-dev libbenchmark-dev)
 fuzz=(clang)

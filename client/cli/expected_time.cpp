@@ -57,7 +57,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 ExpectedTime measure_expected_time(const Model& model, int threads) {
   const DepthImage image = picture_of(model);
   SceneOptions scene_options;
-  scene_options.min_depth = 0.f;
+  scene_options.min_depth = 0.001f;
   scene_options.max_depth = 1e3f;
   scene_options.threads = threads;
   MatchOptions match_options;

@@ -51,8 +51,9 @@ PlacedTarget place(const DrillTarget& planned, const Detection& detection,
       sigma_across(target.entry + target.depth * target.axis, target.axis, centre, covariance);
   const Eigen::Matrix3d turn = cross_matrix(target.axis);
   placed.angle_sigma = worst_sigma(turn * covariance.topLeftCorner<3, 3>() * turn.transpose());
-  placed.certain = 2 * std::max(placed.entry_sigma, placed.bottom_sigma) <= target.position_tolerance &&
-                   2 * placed.angle_sigma <= target.angle_tolerance && placed.entry_sigma > 0;
+  placed.certain = covariance.trace() > 0 &&
+                   2 * std::max(placed.entry_sigma, placed.bottom_sigma) <= target.position_tolerance &&
+                   2 * placed.angle_sigma <= target.angle_tolerance;
   return placed;
 }
 
@@ -94,12 +95,12 @@ json to_json(const PlanReport& report, const std::string& frame) {
 }
 
 void print_table(std::ostream& out, const PlanReport& report, const std::string& frame) {
-  out << formatted("\n%-16s %26s  %20s  %8s  %14s  %s\n", "target", ("entry in " + frame + " [mm]").c_str(),
+  out << formatted("\n%-22s %26s  %20s  %8s  %14s  %s\n", "target", ("entry in " + frame + " [mm]").c_str(),
                    "axis", "depth mm", "2 sigma mm deg", "within tolerance");
   for (const PlacedTarget& placed : report.targets) {
     const Eigen::Vector3d entry = 1e3 * placed.target.entry, &axis = placed.target.axis;
     out << formatted(
-        "%-16.16s %8.2f %8.2f %8.2f  %6.3f %6.3f %6.3f  %8.1f  %7.3f %6.3f  %s (%.1f mm, %.1f deg)\n",
+        "%-22.22s %8.2f %8.2f %8.2f  %6.3f %6.3f %6.3f  %8.1f  %7.3f %6.3f  %s (%.1f mm, %.1f deg)\n",
         placed.target.name.c_str(), entry.x(), entry.y(), entry.z(), axis.x(), axis.y(), axis.z(),
         1e3 * placed.target.depth, 2e3 * std::max(placed.entry_sigma, placed.bottom_sigma),
         2 * kDegrees * placed.angle_sigma, placed.certain ? "yes" : "NO",

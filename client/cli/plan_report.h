@@ -17,7 +17,8 @@ struct PlacedTarget {
   double entry_sigma = 0;   ///< [m] one standard deviation across the axis, worst direction, at the entry
   double bottom_sigma = 0;  ///< [m] ... at the bottom of the hole
   double angle_sigma = 0;   ///< [rad] ... of the axis
-  /// Two standard deviations stay within the plan's tolerances. Says nothing about the camera's own errors.
+  /// Two standard deviations stay within the plan's tolerances; false where the covariance is not known (all
+  /// zero: the pose was not refined). Says nothing about the camera's own errors.
   bool certain = false;
 };
 

@@ -11,7 +11,7 @@
 namespace edgepose {
 namespace {
 
-constexpr double kDiscRadius = 1.1;  // [dense steps] neighbouring discs overlap
+constexpr double kDiscRadius = 1.5;  // [dense steps] neighbouring discs overlap
 constexpr double kJump = 0.04;       // [d] a step in depth this large is an edge
 constexpr double kHidden = 0.03;     // [d] the scene this far in front hides the model
 constexpr double kTint = 0.22;

@@ -1,0 +1,98 @@
+#include "client/cli/settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <toml++/toml.h>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "client/cli/nearest_word.h"
+#include "tests/cli/program.h"
+
+namespace edgepose::test {
+namespace {
+
+std::string source(const std::string& name) {
+  std::ostringstream text;
+  text << std::ifstream(std::filesystem::path(EDGEPOSE_SOURCE_DIR) / name).rdbuf();
+  return text.str();
+}
+
+/// The sample with every commented key taken in.
+std::string uncommented() {
+  return std::regex_replace(source("config/edgepose.toml"), std::regex("(^|\n)# ([a-z_]+ = )"), "$1$2");
+}
+
+std::filesystem::path temporary(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / "edgepose_settings_test.toml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(Settings, TheSampleNamesEveryKeyWithItsDefault) {
+  const toml::table sample = toml::parse(uncommented());
+  Settings defaults;
+  size_t keys = 0;
+  for (const SettingKey& key : setting_keys(defaults)) {
+    const auto node = sample.at_path(key.path);
+    ASSERT_TRUE(node) << key.path << " is missing in config/edgepose.toml";
+    Settings changed = read_settings(temporary(uncommented()));
+    for (const SettingKey& read : setting_keys(changed)) {
+      if (read.path == key.path) EXPECT_EQ(to_toml(read), to_toml(key)) << key.path;
+    }
+    ++keys;
+  }
+  size_t in_sample = 0;
+  for (const auto& [section, table] : sample) {
+    for (const auto& [name, node] : *table.as_table())
+      in_sample += node.is_table() ? node.as_table()->size() : 1;
+  }
+  EXPECT_EQ(in_sample, keys);
+}
+
+/// Fields of the option structs, read from the headers: a new one needs a key.
+TEST(Settings, EveryOptionOfTheMatcherHasAKey) {
+  Settings settings;
+  std::vector<std::string> paths;
+  for (const SettingKey& key : setting_keys(settings)) paths.push_back(key.path);
+  const std::vector<std::array<std::string, 3>> structs = {
+      {"matcher/model.h", "TrainOptions", "train."},
+      {"matcher/scene.h", "SceneOptions", "scene."},
+      {"matcher/match.h", "MatchOptions", "match."},
+      {"matcher/match.h", "PaperOptions", "match.paper."}};
+  for (const auto& [header, name, prefix] : structs) {
+    const std::string text = source(header);
+    const size_t begin = text.find("struct " + name + " {");
+    ASSERT_NE(begin, std::string::npos) << name;
+    const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
+    const std::regex field("\n  [A-Za-z_0-9:]+ ([a-z_0-9]+) *= *[^;]+;");
+    size_t fields = 0;
+    for (auto it = std::sregex_iterator(body.begin(), body.end(), field); it != std::sregex_iterator();
+         ++it) {
+      EXPECT_THAT(paths, testing::Contains(prefix + (*it)[1].str()));
+      ++fields;
+    }
+    EXPECT_GT(fields, 2u) << name;
+  }
+}
+
+TEST(Settings, AFileOverridesOnlyWhatItNames) {
+  const Settings settings = read_settings(
+      temporary("[match]\naccept_score = 0.25\nverification = \"paper\"\n[match.paper]\ncandidates = 5\n"));
+  EXPECT_FLOAT_EQ(settings.match.accept_score, 0.25f);
+  EXPECT_EQ(settings.match.verification, Verification::kPaper);
+  EXPECT_EQ(settings.match.paper.candidates, 5);
+  EXPECT_EQ(settings.match.max_instances, MatchOptions{}.max_instances);
+}
+
+TEST(NearestWord, HasTheFewestChanges) {
+  EXPECT_EQ(nearest_word("tread", {"threads", "views", "seed"}), "threads");
+  EXPECT_EQ(nearest_word("seed", {"threads", "seeds", "seed"}), "seed");
+  EXPECT_EQ(nearest_word("x", {}), "");
+}
+
+}  // namespace
+}  // namespace edgepose::test
