@@ -29,14 +29,9 @@ std::vector<std::pair<int, JsonNode>> members_by_id(const JsonNode& object) {
 }
 
 SymmetryAxis parse_axis(const JsonNode& node) {
-  const std::vector<double> direction = node.at("axis").numbers(3);
   const auto offset = node.find("offset");
-  const std::vector<double> point = offset ? offset->numbers(3) : std::vector<double>(3, 0.0);
-  SymmetryAxis axis{Eigen::Vector3d(point.data()) * 1e-3, Eigen::Vector3d(direction.data())};
-  const double length = axis.direction.stableNorm();
-  if (!(length > 1e-6)) throw InputError::at(node.at("axis").where(), "a direction", "a vector of length 0");
-  axis.direction /= length;
-  return axis;
+  return {offset ? Eigen::Vector3d(offset->vector() * 1e-3) : Eigen::Vector3d(0, 0, 0),
+          node.at("axis").direction()};
 }
 
 Symmetries parse_symmetries(const JsonNode& object) {

@@ -25,8 +25,6 @@ double length(const JsonNode& node) {
   return value * kMillimetre;
 }
 
-Eigen::Vector3d vector(const JsonNode& node) { return Eigen::Vector3d(node.numbers(3).data()); }
-
 std::string name_of(const JsonNode& node) {
   const std::string name = node.text();
   if (trim(name).empty() || name.size() > 200) node.fail("a name of 1 to 200 characters");
@@ -37,16 +35,11 @@ DrillTarget parse_target(const JsonNode& node) {
   DrillTarget target;
   target.name = name_of(node.at("name"));
   const JsonNode entry = node.at("entry_mm");
-  target.entry = vector(entry) * kMillimetre;
+  target.entry = entry.vector() * kMillimetre;
   if (!(target.entry.stableNorm() <= kMaxLength))
     throw InputError::at(entry.where(), "a point within 10 km of the origin", "one beyond",
                          "lengths are in millimetres");
-  const JsonNode axis = node.at("axis");
-  target.axis = vector(axis);
-  const double axis_length = target.axis.stableNorm();
-  if (!(axis_length > 1e-6))
-    throw InputError::at(axis.where(), "the direction of drilling", "a vector of length 0");
-  target.axis /= axis_length;
+  target.axis = node.at("axis").direction();
   target.depth = length(node.at("depth_mm"));
   target.diameter = length(node.at("diameter_mm"));
   target.position_tolerance = length(node.at("tolerance_mm"));

@@ -44,7 +44,7 @@ double JsonNode::number() const {
 
 double JsonNode::positive() const {
   const double value = number();
-  if (!(value > 0)) fail("a number above 0");
+  if (!(value >= 1e-6)) fail("a number above 0");
   return value;
 }
 
@@ -65,6 +65,17 @@ std::vector<double> JsonNode::numbers(size_t count) const {
   std::vector<double> values;
   for (const JsonNode& item : items()) values.push_back(item.number());
   return values;
+}
+
+Eigen::Vector3d JsonNode::vector() const { return Eigen::Vector3d(numbers(3).data()); }
+
+Eigen::Vector3d JsonNode::direction() const {
+  const Eigen::Vector3d along = vector();
+  const double length = along.stableNorm();
+  if (!(length >= 1e-6 && length <= 1e6))
+    throw InputError::at(where_, "a direction (a vector of length 1)",
+                         "a vector of length " + number_text(length, 6));
+  return along / length;
 }
 
 void JsonNode::fail(const std::string& expected, const std::string& advice) const {

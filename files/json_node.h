@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -22,11 +23,14 @@ class JsonNode {
   std::vector<std::string> keys() const;                       ///< of an object, sorted
   std::vector<JsonNode> items() const;                         ///< of an array
 
-  double number() const;  ///< finite
-  double positive() const;
+  double number() const;    ///< finite
+  double positive() const;  ///< finite, at least 1e-6: whatever the unit, less is a mistake
   int integer() const;
   std::string text() const;
   std::vector<double> numbers(size_t count) const;  ///< an array of exactly `count` finite numbers
+
+  Eigen::Vector3d vector() const;     ///< an array of 3
+  Eigen::Vector3d direction() const;  ///< ... scaled to length 1
 
   [[noreturn]] void fail(const std::string& expected, const std::string& advice = "") const;
 

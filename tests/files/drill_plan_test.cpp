@@ -52,8 +52,10 @@ TEST(DrillPlan, WritesAndReadsBack) {
 
 TEST(DrillPlan, RefusesUnsoundPlans) {
   const std::pair<std::string, const char*> cases[] = {
-      {replaced(kPlan, "[0, -2, 0]", "[0, 0, 0]"), "targets[0]: axis: expected the direction of drilling"},
+      {replaced(kPlan, "[0, -2, 0]", "[0, 0, 0]"), "targets[0]: axis: expected a direction"},
       {replaced(kPlan, "[0, -2, 0]", "[0, -2]"), "an array of 2"},
+      {replaced(kPlan, "[0, -2, 0]", "[1.7e308, 1.7e308, 1.7e308]"), "axis: expected a direction"},
+      {replaced(kPlan, "\"depth_mm\": 35", "\"depth_mm\": 1e-322"), "targets[0]: depth_mm"},
       {replaced(kPlan, "[0, -2, 0]", "[0, NaN, 0]"), "JSON"},
       {replaced(kPlan, "[-14, 12.5, 8]", "[-14, null, 8]"), "entry_mm[1]"},
       {replaced(kPlan, "[-14, 12.5, 8]", "[-14, 1e400, 8]"), "JSON"},
