@@ -8,6 +8,7 @@
 #include "files/mesh_file.h"
 #include "models/phantom/drill_plan.h"
 #include "models/phantom/phantom_mesh.h"
+#include "models/phantom/phantom_views.h"
 #include "models/phantom/sample_files.h"
 #include "models/phantom/sample_scenes.h"
 
@@ -27,6 +28,7 @@ void generate(const fs::path& folder) {
   const Mesh mesh = phantom_mesh();
   write_ply(folder / "phantom" / "phantom.ply", mesh);
   write_drill_plan(folder / "phantom" / "drill_plan.json", drill_plan(), 1000 * diameter(mesh));
+  write_png(folder / "phantom" / "views.png", phantom_views(mesh));
 
   std::vector<SampleScene> scenes;
   for (int i = 0; i < kSampleScenes; ++i) scenes.push_back(sample_scene(mesh, i));
