@@ -33,11 +33,11 @@ struct PoseView {
   double tolerance;  // [m]
 };
 
-/// Depth in the 3 x 3 pixels about (x, y): the farthest one. `hole` where nothing is measured.
-double farthest_around(const DepthImage& image, int x, int y, double hole) {
+/// The farthest depth within `reach` pixels of (x, y). `hole` where nothing is measured.
+double farthest_around(const DepthImage& image, int x, int y, int reach, double hole) {
   double farthest = 0;
-  for (int v = y - 1; v <= y + 1; ++v) {
-    for (int u = x - 1; u <= x + 1; ++u) {
+  for (int v = y - reach; v <= y + reach; ++v) {
+    for (int u = x - reach; u <= x + reach; ++u) {
       if (u < 0 || v < 0 || u >= image.width || v >= image.height) continue;
       const double depth = image.at(u, v) > 0 ? static_cast<double>(image.at(u, v)) : hole;
       farthest = std::max(farthest, depth);
@@ -48,13 +48,13 @@ double farthest_around(const DepthImage& image, int x, int y, double hole) {
 
 bool hidden_by_itself(const PoseView& view, const cv::Point2d& at, double depth) {
   const double nothing = std::numeric_limits<double>::infinity();
-  const double rendered = farthest_around(view.model, cvRound(at.x), cvRound(at.y), nothing);
-  return rendered > 0 && rendered < depth - 0.3 * view.tolerance;
+  const double rendered = farthest_around(view.model, cvRound(at.x), cvRound(at.y), 2, nothing);
+  return rendered > 0 && rendered < depth - 0.15 * view.tolerance;
 }
 
 bool hidden_by_scene(const PoseView& view, const cv::Point2d& at, double depth) {
   const auto pixel = [&](double x) { return static_cast<int>(std::floor((x + 0.5) / view.scale)); };
-  const double seen = farthest_around(view.scene, pixel(at.x), pixel(at.y), 0);
+  const double seen = farthest_around(view.scene, pixel(at.x), pixel(at.y), 1, 0);
   return seen > 0 && seen < depth - view.tolerance;
 }
 
