@@ -124,20 +124,22 @@ class ObjReader {
   void check_indices() const {
     for (const auto& triangle : triangles_) {
       for (const uint32_t vertex : triangle) {
-        if (vertex >= vertices_.size()) fail_range("vertex", vertices_.size(), vertex);
+        if (vertex >= vertices_.size()) fail_range("vertex", "vertices", vertices_.size(), vertex);
       }
     }
     for (const auto& triangle : triangle_normals_) {
       for (const uint32_t normal : triangle) {
-        if (normal != kNone && normal >= normals_.size()) fail_range("normal", normals_.size(), normal);
+        if (normal != kNone && normal >= normals_.size())
+          fail_range("normal", "normals", normals_.size(), normal);
       }
     }
   }
 
-  [[noreturn]] void fail_range(const std::string& what, size_t count, uint32_t index) const {
-    throw InputError::at(
-        cursor_.name(), "faces that name one of the " + std::to_string(count) + " " + what + "s",
-        what + " " + std::to_string(uint64_t{index} + 1), "the file is cut short or damaged");
+  [[noreturn]] void fail_range(const std::string& what, const std::string& plural, size_t count,
+                               uint32_t index) const {
+    throw InputError::at(cursor_.name(), "faces that name one of the " + std::to_string(count) + " " + plural,
+                         what + " " + std::to_string(uint64_t{index} + 1),
+                         "the file is cut short or damaged");
   }
 
   /// One normal a vertex, or none at all: where faces give a vertex several normals, it lies on a sharp edge
