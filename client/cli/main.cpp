@@ -5,23 +5,14 @@
 #include <iostream>
 #include <string>
 
+#include "client/cli/eval_command.h"
 #include "client/cli/exit_codes.h"
 #include "client/cli/info_command.h"
 #include "client/cli/match_command.h"
+#include "client/cli/render_command.h"
+#include "client/cli/study_command.h"
 #include "client/cli/train_command.h"
 #include "common/error.h"
-#if __has_include("client/cli/eval_command.h")
-#include "client/cli/eval_command.h"
-#define HAVE_EVAL
-#endif
-#if __has_include("client/cli/study_command.h")
-#include "client/cli/study_command.h"
-#define HAVE_STUDY
-#endif
-#if __has_include("client/cli/render_command.h")
-#include "client/cli/render_command.h"
-#define HAVE_RENDER
-#endif
 
 namespace edgepose {
 namespace {
@@ -70,14 +61,8 @@ int main(int argc, char** argv) {
   edgepose::add_train_command(app);
   edgepose::add_info_command(app);
   edgepose::add_match_command(app);
-#ifdef HAVE_EVAL
   edgepose::add_eval_command(app);
-#endif
-#ifdef HAVE_STUDY
   edgepose::add_study_command(app);
-#endif
-#ifdef HAVE_RENDER
   edgepose::add_render_command(app);
-#endif
   return edgepose::run(app, argc, argv);
 }
