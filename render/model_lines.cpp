@@ -1,5 +1,6 @@
 #include "render/model_lines.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,18 +46,54 @@ double cosine(const Vector3d& a, const Vector3d& b) {
   return a.dot(b) / std::sqrt(a.squaredNorm() * b.squaredNorm());
 }
 
-void add_creases(const Welded& mesh, double min_cosine, std::vector<LinePiece>& lines) {
+/// Leaves out the lines that hang together over less than `min_length`: on a smooth but finely curved mesh
+/// single edges are sharp, and no line that anybody sees.
+void add_long_lines(const Welded& mesh, const std::vector<std::pair<uint32_t, uint32_t>>& edges,
+                    double min_length, std::vector<LinePiece>& lines) {
+  std::map<uint32_t, uint32_t> parent;  // union-find over the vertices
+  const auto root = [&](uint32_t vertex) {
+    while (parent.try_emplace(vertex, vertex).first->second != vertex) {
+      vertex = parent[vertex] = parent[parent[vertex]];
+    }
+    return vertex;
+  };
+  const auto length = [&](const auto& edge) {
+    return (mesh.vertices[edge.first] - mesh.vertices[edge.second]).norm();
+  };
+  for (const auto& [a, b] : edges) parent[root(a)] = root(b);
+  std::map<uint32_t, double> total;
+  for (const auto& edge : edges) total[root(edge.first)] += length(edge);
+  for (const auto& edge : edges) {
+    if (total[root(edge.first)] < min_length) continue;
+    lines.push_back({mesh.vertices[edge.first], mesh.vertices[edge.second]});
+  }
+}
+
+void add_creases(const Welded& mesh, const Vector3d& viewpoint, double min_cosine,
+                 std::vector<LinePiece>& lines) {
   std::map<std::pair<uint32_t, uint32_t>, std::vector<size_t>> faces_at;
   for (size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (size_t i = 0; i < 3; ++i) {
       faces_at[std::minmax(mesh.triangles[f][i], mesh.triangles[f][(i + 1) % 3])].push_back(f);
     }
   }
+  std::vector<std::pair<uint32_t, uint32_t>> sharp;
   for (const auto& [edge, faces] : faces_at) {
     const bool smooth =
         faces.size() == 2 && cosine(mesh.area_normals[faces[0]], mesh.area_normals[faces[1]]) >= min_cosine;
-    if (!smooth) lines.push_back({mesh.vertices[edge.first], mesh.vertices[edge.second]});
+    if (smooth) continue;
+    const Vector3d to_viewer = viewpoint - mesh.vertices[edge.first];
+    const auto faces_viewer = [&](size_t f) { return mesh.area_normals[f].dot(to_viewer) > 0; };
+    if (faces.size() == 2 && faces_viewer(faces[0]) != faces_viewer(faces[1])) {
+      // Part of the contour, however short; add_contour() does not see it, it never looks across a crease.
+      lines.push_back({mesh.vertices[edge.first], mesh.vertices[edge.second]});
+    } else {
+      sharp.push_back(edge);
+    }
   }
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  add_long_lines(mesh, sharp, 0.15 * box.sizes().norm(), lines);
 }
 
 void add_contour(const Welded& mesh, const Vector3d& viewpoint, double min_cosine,
@@ -95,7 +132,7 @@ std::vector<LinePiece> model_lines(const Mesh& mesh, const Vector3d& viewpoint, 
   const Welded welded = weld(mesh);
   const double min_cosine = std::cos(crease_angle);
   std::vector<LinePiece> lines;
-  add_creases(welded, min_cosine, lines);
+  add_creases(welded, viewpoint, min_cosine, lines);
   add_contour(welded, viewpoint, min_cosine, lines);
   return lines;
 }
