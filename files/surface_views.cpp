@@ -31,21 +31,26 @@ class DepthBuffer {
 
   /// `id` > 0 of the part. The front is seen if the corners run counter-clockwise.
   void draw(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, int64_t id) {
-    const double area = cross(b - a, c - a);
+    const Eigen::Vector3d ab = b - a, ac = c - a;
+    const double area = ab.x() * ac.y() - ab.y() * ac.x();
     if (area == 0) return;  // on edge
     const int left = first_pixel(std::min({a.x(), b.x(), c.x()})),
               right = last_pixel(std::max({a.x(), b.x(), c.x()}));
     const int low = first_pixel(std::min({a.y(), b.y(), c.y()})),
               high = last_pixel(std::max({a.y(), b.y(), c.y()}));
+    const int64_t side = area > 0 ? id : -id;
+    // Barycentric weights of b and c grow by these from pixel to pixel.
+    const double step_b = ac.y() / area, step_c = -ab.y() / area;
     for (int y = low; y <= high; ++y) {
-      for (int x = left; x <= right; ++x) {
-        const Eigen::Vector3d p(x + 0.5, y + 0.5, 0);
-        const double wa = cross(b - p, c - p) / area, wb = cross(c - p, a - p) / area, wc = 1 - wa - wb;
-        if (!(wa >= 0 && wb >= 0 && wc >= 0)) continue;
-        const double z = wa * a.z() + wb * b.z() + wc * c.z();
-        if (z <= depth_[y * kSize + x]) continue;
-        depth_[y * kSize + x] = z;
-        side_[y * kSize + x] = area > 0 ? id : -id;
+      const double px = left + 0.5 - a.x(), py = y + 0.5 - a.y();
+      double weight_b = (px * ac.y() - py * ac.x()) / area, weight_c = (py * ab.x() - px * ab.y()) / area;
+      for (int x = left; x <= right; ++x, weight_b += step_b, weight_c += step_c) {
+        if (!(weight_b >= 0 && weight_c >= 0 && weight_b + weight_c <= 1)) continue;
+        const double z = a.z() + weight_b * ab.z() + weight_c * ac.z();
+        const size_t pixel = static_cast<size_t>(y * kSize + x);
+        if (z <= depth_[pixel]) continue;
+        depth_[pixel] = z;
+        side_[pixel] = side;
       }
     }
   }
@@ -58,9 +63,6 @@ class DepthBuffer {
   }
 
  private:
-  static double cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-  }
   // Coordinates lie within the image: the surface was scaled to fit.
   static int first_pixel(double lowest) { return std::max(0, static_cast<int>(std::ceil(lowest - 0.5))); }
   static int last_pixel(double highest) {
