@@ -9,7 +9,7 @@
 namespace edgepose {
 namespace {
 
-constexpr int kViews = 24, kSize = 128;
+constexpr int kViews = 12, kSize = 128;
 
 /// Directions spread evenly over the sphere (a Fibonacci lattice).
 Eigen::Vector3d view_direction(int i) {

@@ -16,8 +16,8 @@ struct SeenSides {
   }
 };
 
-/// Draws the surface from 24 directions, orthographic, 128 x 128 pixels, and looks which side of which part
-/// is in front. About 1.5 ms for 1000 triangles, growing with their number.
+/// Draws the surface from 12 directions, orthographic, 128 x 128 pixels, and looks which side of which part
+/// is in front. Some 25 ms for 60,000 triangles.
 std::vector<SeenSides> look_from_around(const SurfaceTopology& topology);
 
 }  // namespace edgepose
