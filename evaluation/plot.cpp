@@ -72,7 +72,9 @@ void write_bars(std::ostream& out, const Plot& plot) {
   out << "END\nset style data histograms\nset style fill solid 0.85 border -1\nset boxwidth 0.9\n"
       << (plot.kind == Plot::Kind::kStackedBars ? "set style histogram rowstacked\n"
                                                 : "set style histogram clustered gap 1\n");
-  if (plot.labels.size() > 6) out << "set xtics rotate by -30\n";
+  size_t longest = 0;
+  for (const std::string& label : plot.labels) longest = std::max(longest, label.size());
+  if (longest * plot.labels.size() > 80) out << "set xtics rotate by -30\n";
   out << "plot ";
   for (size_t i = 0; i < plot.series.size(); ++i) {
     out << (i ? ", " : "") << "$data using " << i + 2 << ":xtic(1) ";
@@ -92,12 +94,17 @@ void write_curves(std::ostream& out, const Plot& plot) {
       out << number(s.x[i]) << ' ' << number(s.y[i]) << '\n';
     out << "END\n";
   }
-  const char* style = plot.kind == Plot::Kind::kSteps    ? "steps lw 2"
-                      : plot.kind == Plot::Kind::kPoints ? "linespoints lw 2 pt 7"
-                                                         : "lines lw 2";
+  const char* style = plot.kind == Plot::Kind::kSteps       ? "steps"
+                      : plot.kind == Plot::Kind::kPoints    ? "linespoints"
+                      : plot.kind == Plot::Kind::kHistogram ? "boxes"
+                                                            : "lines";
+  if (plot.kind == Plot::Kind::kHistogram && plot.series[0].x.size() > 1)
+    out << "set style fill solid 0.85 border -1\nset xrange [0:*]\nset boxwidth "
+        << number(plot.series[0].x[1] - plot.series[0].x[0]) << '\n';
   out << "plot ";
   for (size_t k = 0; k < plot.series.size(); ++k) {
-    out << (k ? ", " : "") << "$data" << k << " using 1:2 with " << style;
+    out << (k ? ", " : "") << "$data" << k << " using 1:2 with " << style
+        << (plot.series[k].bold ? " lw 4 lc rgb '#000000'" : " lw 2");
     if (plot.series[k].name.empty())
       out << " notitle";
     else
@@ -106,16 +113,31 @@ void write_curves(std::ostream& out, const Plot& plot) {
   out << '\n';
 }
 
+/// Ten that can be told apart; further curves repeat them dashed.
+std::string colours() {
+  constexpr const char* kColours[] = {"#1f6fb4", "#e08214", "#2b8a3e", "#b5292a", "#7a4fa3",
+                                      "#17a2b8", "#d6539b", "#8a6d3b", "#7f7f7f", "#a5b800"};
+  constexpr int kCount = static_cast<int>(std::size(kColours));
+  std::string text;
+  for (int i = 0; i < 2 * kCount; ++i) {
+    text.append("set linetype ")
+        .append(std::to_string(i + 1))
+        .append(" lc rgb '")
+        .append(kColours[i % kCount]);
+    text.append(i < kCount ? "' dt 1\n" : "' dt 2\n");
+  }
+  return text;
+}
+
 std::string script_of(const Plot& plot) {
   std::ostringstream out;
   out << "# gnuplot " << harmless_text(plot.file) << ".gp > " << harmless_text(plot.file) << ".png\n"
       << "set terminal pngcairo noenhanced size 960,600 font 'Sans,13' background '#ffffff'\n"
       << "set title '" << harmless_text(plot.title) << "'\nset xlabel '" << harmless_text(plot.x_label)
       << "'\nset ylabel '" << harmless_text(plot.y_label) << "'\n"
-      << "set grid ytics lc rgb '#cccccc'\nset border 3\nset tics nomirror\nset key outside right top\n"
-      << "set linetype 1 lc rgb '#1f6fb4'\nset linetype 2 lc rgb '#e08214'\nset linetype 3 lc rgb '#2b8a3e'\n"
-      << "set linetype 4 lc rgb '#b5292a'\nset linetype 5 lc rgb '#7a4fa3'\nset linetype 6 lc rgb '#555555'\n"
-      << (plot.y_percent ? "set yrange [0:105]\nset ytics 10\n" : "set yrange [0:*]\n")
+      << "set grid ytics lt 1 lw 1 lc rgb '#d8d8d8'\nset border 3\nset tics nomirror\nset key outside right "
+         "top\n"
+      << colours() << (plot.y_percent ? "set yrange [0:105]\nset ytics 10\n" : "set yrange [0:*]\n")
       << (plot.log_x ? "set logscale x\n" : "");
   const bool bars = plot.kind == Plot::Kind::kBars || plot.kind == Plot::Kind::kStackedBars;
   bars ? write_bars(out, plot) : write_curves(out, plot);

@@ -8,12 +8,14 @@ namespace edgepose {
 /// One line, or one group of bars, of a plot.
 struct Series {
   std::string name;
-  std::vector<double> x;  ///< empty for bars: then value i stands over label i
+  std::vector<double> x;  ///< centres of equal bins for a histogram; empty for bars: then
+                          ///< value i stands over label i
   std::vector<double> y;
+  bool bold = false;  ///< thick and black: the sum of the others
 };
 
 struct Plot {
-  enum class Kind { kLines, kSteps, kBars, kStackedBars, kPoints };
+  enum class Kind { kLines, kSteps, kPoints, kHistogram, kBars, kStackedBars };
   Kind kind = Kind::kLines;
   std::string file;  ///< without folder and ending
   std::string title, x_label, y_label;

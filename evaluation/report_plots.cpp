@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "evaluation/report.h"
@@ -65,23 +66,27 @@ Plot recall_by_threshold(const EvalReport& report) {
     if (by_object.size() > 1 && by_object.count(object.id))
       plot.series.push_back(threshold_curve(object.name, by_object[object.id]));
   plot.series.push_back(threshold_curve("all", all));
+  plot.series.back().bold = true;
   return plot;
 }
 
-/// Bars of equal width from 0 to `end`; what lies beyond is counted in the last.
-Plot histogram(std::string file, std::string title, std::string x_label, const std::vector<double>& values,
-               double end, int decimals) {
-  constexpr size_t kBins = 20;
-  Plot plot{.kind = Plot::Kind::kBars,
+/// About twenty bins of a round width from 0 on; what lies beyond the 98th percentile is counted in the last.
+Plot histogram(std::string file, std::string title, std::string x_label, const std::vector<double>& values) {
+  Plot plot{.kind = Plot::Kind::kHistogram,
             .file = std::move(file),
             .title = std::move(title),
             .x_label = std::move(x_label),
             .y_label = "count"};
-  Series series{"", {}, std::vector<double>(kBins, 0.0)};
-  const double width = end / static_cast<double>(kBins);
+  const double wanted = std::max(1e-3, percentile(values, 0.98)) / 20;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  double width = 10 * power;
+  for (double round : {5.0, 2.0, 1.0})
+    if (round * power >= wanted) width = round * power;
+  const size_t bins = static_cast<size_t>(std::ceil(std::max(1e-3, percentile(values, 0.98)) / width));
+  Series series{"", {}, std::vector<double>(bins, 0.0)};
   for (double value : values)
-    series.y[std::min(kBins - 1, static_cast<size_t>(std::max(0.0, value / width)))] += 1;
-  for (size_t i = 0; i < kBins; ++i) plot.labels.push_back(fixed(width * static_cast<double>(i), decimals));
+    series.y[std::min(bins - 1, static_cast<size_t>(std::max(0.0, value / width)))] += 1;
+  for (size_t i = 0; i < bins; ++i) series.x.push_back(width * (static_cast<double>(i) + 0.5));
   plot.series.push_back(std::move(series));
   return plot;
 }
@@ -90,15 +95,13 @@ Plot error_histogram(const EvalReport& report) {
   std::vector<double> errors;
   for (const InstanceScore& i : report.scores.instances)
     if (i.correct(kLargestThreshold)) errors.push_back(1e3 * i.error);
-  const double end = std::max(0.1, percentile(errors, 0.98));
   return histogram("error_histogram", "Errors of the poses correct at 0.1 d (last bar: this and more)",
-                   "error, mm, from", errors, end, end < 1 ? 3 : 2);
+                   "error, mm", errors);
 }
 
 Plot time_histogram(const std::vector<double>& milliseconds_each) {
-  const double end = std::max(1.0, percentile(milliseconds_each, 0.98));
-  return histogram("time_histogram", "Time for one object in one image (last bar: this and more)",
-                   "time, ms, from", milliseconds_each, end, end < 40 ? 1 : 0);
+  return histogram("time_histogram", "Time for one object in one image (last bar: this and more)", "time, ms",
+                   milliseconds_each);
 }
 
 Plot time_distribution(std::vector<double> milliseconds_each) {

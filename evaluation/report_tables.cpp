@@ -60,7 +60,7 @@ std::string figures_table(const EvalReport& report) {
     table.add({"false positives", "not asked (only with --all-models)"});
   for (size_t k = 1; k < kThresholds.size(); ++k)
     table.add({"accepted, of the poses correct at " + fixed(kThresholds[k], 2) + " d",
-               share_of(scores.pooled.correct_accepted[k], scores.pooled.correct[k])});
+               share_of(scores.best_guesses.correct_accepted[k], scores.best_guesses.correct[k])});
   table.add({"median error of the poses correct at 0.05 d, mm", fixed(1e3 * scores.median_error, 3)});
   table.add({"the same, ADD of objects without symmetries, mm", fixed(1e3 * scores.median_add, 3)});
   table.add({"time for an object in an image: median, ms", milliseconds(scores.time.median)});

@@ -13,10 +13,11 @@ namespace edgepose {
 namespace {
 
 using Question = std::tuple<int, int, int>;  // scene, image, object
+using Answers = std::map<Question, const EvalRow*>;
 
 /// The best answer to each question; the first of equals.
-std::map<Question, const EvalRow*> best_answers(const std::vector<EvalRow>& rows, bool only_accepted) {
-  std::map<Question, const EvalRow*> best;
+Answers best_answers(const std::vector<EvalRow>& rows, bool only_accepted) {
+  Answers best;
   for (const EvalRow& row : rows) {
     if (!row.found || (only_accepted && !row.accepted)) continue;
     const EvalRow*& slot = best[{row.scene_id, row.image_id, row.object_id}];
@@ -38,6 +39,40 @@ InstanceScore score_instance(const TestImage& image, const GroundTruth& truth, c
       answer ? error(truth.camera_T_model, answer->camera_T_model) : std::numeric_limits<double>::infinity();
   score.accepted = answer && answer->accepted;
   return score;
+}
+
+std::vector<InstanceScore> score_instances(const TestSet& set, const PoseErrors& errors,
+                                           const Answers& answers) {
+  std::map<int, const TestObject*> objects;
+  for (const TestObject& object : set.objects) objects[object.id] = &object;
+  std::vector<InstanceScore> instances;
+  for (const TestImage& image : set.images)
+    for (const GroundTruth& truth : image.truth) {
+      const auto object = objects.find(truth.object_id);
+      if (object == objects.end() || truth.visible_pixels < kMinVisiblePixels) continue;
+      const auto answer = answers.find({image.scene_id, image.image_id, truth.object_id});
+      instances.push_back(score_instance(image, truth, *object->second, errors.at(truth.object_id),
+                                         answer == answers.end() ? nullptr : answer->second));
+    }
+  return instances;
+}
+
+/// All pairs of image and object, and those where the object is there.
+struct Pairs {
+  std::set<Question> all, present;
+};
+
+Pairs pairs_of(const TestSet& set) {
+  Pairs pairs;
+  for (const TestImage& image : set.images) {
+    for (const TestObject& object : set.objects)
+      pairs.all.insert({image.scene_id, image.image_id, object.id});
+    for (const GroundTruth& truth : image.truth) {
+      const Question question{image.scene_id, image.image_id, truth.object_id};
+      if (pairs.all.count(question)) pairs.present.insert(question);
+    }
+  }
+  return pairs;
 }
 
 double median_error_of_correct(const std::vector<InstanceScore>& instances, bool with_symmetric) {
@@ -73,39 +108,26 @@ PoseErrors make_pose_errors(const TestSet& set) {
 
 Scores score_results(const TestSet& set, const PoseErrors& errors, const std::vector<EvalRow>& rows,
                      bool only_accepted) {
-  std::map<int, const TestObject*> objects;
-  for (const TestObject& object : set.objects) objects[object.id] = &object;
-  const auto answers = best_answers(rows, only_accepted);
   Scores scores;
-  std::set<Question> questions, present;
-  for (const TestImage& image : set.images) {
-    for (const auto& [id, object] : objects) questions.insert({image.scene_id, image.image_id, id});
-    for (const GroundTruth& truth : image.truth) {
-      const auto object = objects.find(truth.object_id);
-      if (object == objects.end()) continue;
-      const Question question{image.scene_id, image.image_id, truth.object_id};
-      present.insert(question);
-      if (truth.visible_pixels < kMinVisiblePixels) continue;
-      const auto answer = answers.find(question);
-      scores.instances.push_back(score_instance(image, truth, *object->second, errors.at(truth.object_id),
-                                                answer == answers.end() ? nullptr : answer->second));
-    }
-  }
+  scores.instances = score_instances(set, errors, best_answers(rows, only_accepted));
   for (const InstanceScore& instance : scores.instances) {
     scores.objects[instance.object_id].add(instance);
     scores.pooled.add(instance);
   }
+  for (const InstanceScore& instance : score_instances(set, errors, best_answers(rows, false)))
+    scores.best_guesses.add(instance);
   for (size_t k = 0; k < kThresholds.size(); ++k) {
     std::vector<double> rates;
     for (const auto& [id, recall] : scores.objects) rates.push_back(recall.rate(k));
     scores.mean_recall[k] = mean(rates);
   }
-  scores.absent_pairs = questions.size() - present.size();
+  const Pairs pairs = pairs_of(set);
+  scores.absent_pairs = pairs.all.size() - pairs.present.size();
   for (const auto& [question, answer] : best_answers(rows, true))
-    scores.false_positives += questions.count(question) && !present.count(question);
+    scores.false_positives += pairs.all.count(question) && !pairs.present.count(question);
   std::vector<double> seconds;
   for (const EvalRow& row : rows)
-    if (row.seconds > 0 && questions.count({row.scene_id, row.image_id, row.object_id}))
+    if (row.seconds > 0 && pairs.all.count({row.scene_id, row.image_id, row.object_id}))
       seconds.push_back(row.seconds);
   scores.time = {seconds.size(), median(seconds), mean(seconds), percentile(seconds, 0.95)};
   scores.median_error = median_error_of_correct(scores.instances, true);

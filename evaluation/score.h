@@ -43,6 +43,7 @@ struct Scores {
   std::vector<InstanceScore> instances;
   std::map<int, Recall> objects;                         ///< RR, by object id
   Recall pooled;                                         ///< all instances together
+  Recall best_guesses;                                   ///< the same, answers that are not accepted included
   std::array<double, kThresholds.size()> mean_recall{};  ///< [0, 1] MR: mean of RR over the objects
   size_t absent_pairs = 0;                               ///< pairs of image and object that is not in it
   size_t false_positives = 0;                            ///< ... in which the object was reported

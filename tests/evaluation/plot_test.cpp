@@ -50,7 +50,7 @@ TEST_F(PlotTest, DrawsEveryKind) {
     draw(plot, folder);
     EXPECT_EQ(content(folder / "bars.png").substr(1, 3), "PNG");
   }
-  for (auto kind : {Plot::Kind::kLines, Plot::Kind::kSteps, Plot::Kind::kPoints}) {
+  for (auto kind : {Plot::Kind::kLines, Plot::Kind::kSteps, Plot::Kind::kPoints, Plot::Kind::kHistogram}) {
     Plot plot{.kind = kind,
               .file = "curve",
               .title = "Curve",

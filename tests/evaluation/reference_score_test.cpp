@@ -123,7 +123,7 @@ TEST_P(ReferenceScore, Agrees) {
 
 INSTANTIATE_TEST_SUITE_P(Sets, ReferenceScore,
                          ::testing::Values("range", "spine", "industrial", "real_dragon", "real_bunny"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
 }  // namespace edgepose
