@@ -33,7 +33,7 @@ class Evaluate : public ::testing::Test {
   static inline std::vector<TrainedModel> models;
 };
 
-TEST_F(Evaluate, AsksForListedObjectsAndFindsThem) {
+TEST_F(Evaluate, AsksForListedObjectsAndScoresTheAnswers) {
   double last_progress = 0;
   const Evaluation evaluation = run_evaluation(rendered->set, models, {}, [&](double share) {
     EXPECT_GE(share, last_progress);
@@ -42,7 +42,8 @@ TEST_F(Evaluate, AsksForListedObjectsAndFindsThem) {
   EXPECT_EQ(last_progress, 1);
   EXPECT_EQ(questions(evaluation), (std::vector<std::pair<int, int>>{{0, 1}, {0, 2}, {1, 1}}));
   const Scores scores = score_results(rendered->set, make_pose_errors(rendered->set), evaluation.rows);
-  EXPECT_EQ(scores.pooled.correct[2], 3u) << "three plain views, nothing in the way";
+  EXPECT_EQ(scores.pooled.instances, 3u);
+  EXPECT_EQ(scores.objects.at(1).correct[0], 2u) << "the stairs in plain view, twice";
   for (const EvalRow& row : evaluation.rows) {
     EXPECT_GT(row.preprocessing, 0);
     EXPECT_GE(row.seconds, row.preprocessing + row.stages.total() * 0.99);
