@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <toml++/toml.h>
+#include <array>
 #include <fstream>
 #include <regex>
 #include <sstream>
 
 #include "client/cli/nearest_word.h"
-#include "tests/cli/program.h"
 
 namespace edgepose::test {
 namespace {
@@ -35,13 +35,15 @@ std::filesystem::path temporary(const std::string& text) {
 TEST(Settings, TheSampleNamesEveryKeyWithItsDefault) {
   const toml::table sample = toml::parse(uncommented());
   Settings defaults;
+  Settings changed = read_settings(temporary(uncommented()));
   size_t keys = 0;
   for (const SettingKey& key : setting_keys(defaults)) {
     const auto node = sample.at_path(key.path);
     ASSERT_TRUE(node) << key.path << " is missing in config/edgepose.toml";
-    Settings changed = read_settings(temporary(uncommented()));
     for (const SettingKey& read : setting_keys(changed)) {
-      if (read.path == key.path) EXPECT_EQ(to_toml(read), to_toml(key)) << key.path;
+      if (read.path == key.path) {
+        EXPECT_EQ(to_toml(read), to_toml(key)) << key.path;
+      }
     }
     ++keys;
   }
