@@ -27,7 +27,7 @@ float continued_depth(const Scene::Data& scene, int u, int v, int nu, int nv) {
 EdgeKind outline_kind(const Scene::Data& scene, int u, int v) {
   EdgeKind kind = EdgeKind::kNone;
   const float z = scene.depth[scene.index(u, v)];
-  const float jump = std::max(kJumpPixels * scene.pixel_size(z), kJumpNoise * scene.noise);
+  const float jump = std::max(kJumpPixels * scene.pixel_size(z), kJumpNoise * scene.noise.at(z));
   for (const auto& [du, dv] : kDirections)
     for (int step = 1; step <= kGap; ++step) {
       const int nu = u + step * du, nv = v + step * dv;

@@ -82,6 +82,9 @@ void check_contents(const Model::View& v) {
   for (const auto& e : v.entries)
     if (e.reference >= v.points.size()) refuse("pairs of known points", "a point index out of range");
   if (!sound(v.points, 1e4) || !sound(v.dense_points, 1e4)) refuse("finite points with unit normals", "others");
+  if (v.support_normals.size() != v.dense_points.size()) refuse("a support normal for each dense point", "another number");
+  for (const auto& n : v.support_normals)
+    if (!(std::abs(n.squaredNorm() - 1) < 0.01f)) refuse("unit support normals", "others");
   if (v.discrete.size() % 16 != 0 || v.continuous.size() % 6 != 0) refuse("whole symmetries", "a part of one");
 }
 
@@ -103,6 +106,7 @@ Model Model::from_block(std::span<const std::byte> block, std::shared_ptr<const 
   view->offsets = section<uint32_t>(block, *header, Section::kOffsets);
   view->entries = section<PairEntry>(block, *header, Section::kEntries);
   view->dense_points = section<OrientedPoint>(block, *header, Section::kDensePoints);
+  view->support_normals = section<Eigen::Vector3f>(block, *header, Section::kSupportNormals);
   view->view_directions = section<Eigen::Vector3f>(block, *header, Section::kViewDirections);
   view->visible = section<uint64_t>(block, *header, Section::kVisible);
   view->contour_offsets = section<uint32_t>(block, *header, Section::kContourOffsets);
@@ -135,6 +139,7 @@ Model make_model(const ModelParts& parts) {
   append(Section::kOffsets, parts.offsets);
   append(Section::kEntries, parts.entries);
   append(Section::kDensePoints, parts.dense_points);
+  append(Section::kSupportNormals, parts.support_normals);
   append(Section::kViewDirections, parts.view_directions);
   append(Section::kVisible, parts.visible);
   append(Section::kContourOffsets, parts.contour_offsets);

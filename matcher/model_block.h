@@ -28,6 +28,7 @@ enum class Section : uint32_t {
   kOffsets,         ///< uint32: bucket k holds entries [offsets[k], offsets[k + 1])
   kEntries,         ///< PairEntry, sorted by bucket
   kDensePoints,     ///< OrientedPoint: finer samples, every prefix evenly spread; verification and ICP
+  kSupportNormals,  ///< Vector3f: for each dense point the normal over as wide a support as the scene's have
   kViewDirections,  ///< Vector3f, unit, from the model to the camera
   kVisible,         ///< uint64 bit sets: for each view, which dense points it shows
   kContourOffsets,  ///< uint32: view v has contour points [offsets[v], offsets[v + 1])
@@ -65,7 +66,7 @@ struct Model::View {
   std::span<const OrientedPoint> points, dense_points;
   std::span<const uint32_t> offsets, contour_offsets;
   std::span<const PairEntry> entries;
-  std::span<const Eigen::Vector3f> view_directions;
+  std::span<const Eigen::Vector3f> support_normals, view_directions;
   std::span<const uint64_t> visible;
   std::span<const ContourPoint> contours;
   std::span<const double> discrete, continuous;
@@ -88,7 +89,7 @@ struct ModelParts {
   std::vector<OrientedPoint> points, dense_points;
   std::vector<uint32_t> offsets, contour_offsets;
   std::vector<PairEntry> entries;
-  std::vector<Eigen::Vector3f> view_directions;
+  std::vector<Eigen::Vector3f> support_normals, view_directions;
   std::vector<uint64_t> visible;
   std::vector<ContourPoint> contours;
   std::vector<double> discrete, continuous;

@@ -72,6 +72,25 @@ float fit_plane(Scene::Data& scene, const RowSums& s, float inverse, int u, int 
   return std::sqrt(std::max(0.f, squares) / (n - 3)) / (inverse * inverse);
 }
 
+/// The median residual in each range of depth; ranges with little data take their neighbour's.
+NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals) {
+  std::array<std::vector<float>, NoiseCurve::kBins> samples;
+  for (size_t i = 0; i < residuals.size(); i += 5)
+    if (residuals[i] >= 0) samples[NoiseCurve::bin(scene.depth[i])].push_back(residuals[i]);
+  NoiseCurve curve;
+  for (int b = 0; b < NoiseCurve::kBins; ++b) {
+    auto& s = samples[b];
+    if (s.size() < 50) continue;
+    std::nth_element(s.begin(), s.begin() + static_cast<long>(s.size() / 2), s.end());
+    curve.sigma[b] = s[s.size() / 2];
+  }
+  for (int b = 1; b < NoiseCurve::kBins; ++b)
+    if (curve.sigma[b] <= 0) curve.sigma[b] = curve.sigma[b - 1];
+  for (int b = NoiseCurve::kBins - 2; b >= 0; --b)
+    if (curve.sigma[b] <= 0) curve.sigma[b] = curve.sigma[b + 1];
+  return curve;
+}
+
 }  // namespace
 
 void estimate_normals(Scene::Data& scene, int threads) {
@@ -99,12 +118,7 @@ void estimate_normals(Scene::Data& scene, int threads) {
         residuals[scene.index(u, v)] = fit_plane(scene, sums, inverse[scene.index(u, v)], u, v);
     }
   });
-  std::vector<float> sample;
-  for (size_t i = 0; i < pixels; i += 7)
-    if (residuals[i] >= 0) sample.push_back(residuals[i]);
-  if (sample.empty()) return;
-  std::nth_element(sample.begin(), sample.begin() + static_cast<long>(sample.size() / 2), sample.end());
-  scene.noise = sample[sample.size() / 2];
+  scene.noise = noise_curve(scene, residuals);
 }
 
 }  // namespace edgepose

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -13,6 +15,18 @@ namespace edgepose {
 /// the occluder's shadow, so it stays kNone.
 enum class EdgeKind : uint8_t { kNone = 0, kOccluding = 1, kBoundary = 2, kCrease = 3 };
 
+/// Typical residual of the plane fits over depth: most sensors measure worse the farther they look.
+struct NoiseCurve {
+  static constexpr int kBins = 20;
+  static constexpr float kNearest = 0.05f;  ///< [m] start of the first bin; each bin spans a factor of sqrt(2)
+  std::array<float, kBins> sigma{};         ///< [m]
+
+  static int bin(float z) {
+    return std::clamp(static_cast<int>(2 * std::log2(std::max(z, kNearest) / kNearest)), 0, kBins - 1);
+  }
+  float at(float z) const { return sigma[bin(z)]; }
+};
+
 /// The preprocessed image; all arrays are row-major with width * height elements.
 struct Scene::Data {
   int width = 0, height = 0;
@@ -21,7 +35,7 @@ struct Scene::Data {
   std::vector<float> smooth_depth;        ///< [m] of the fitted plane; 0 where there is no normal
   std::vector<Eigen::Vector3f> normals;   ///< unit, towards the camera; zero where too few neighbours agree
   std::vector<EdgeKind> edges;
-  float noise = 0;                        ///< [m] typical residual of the plane fits: sensor noise and quantisation
+  NoiseCurve noise;                       ///< sensor noise and quantisation, read off the plane fits
   double seconds = 0;                     ///< wall time of the preprocessing
 
   size_t index(int u, int v) const { return static_cast<size_t>(v) * width + u; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "matcher/parallel.h"
@@ -99,7 +100,7 @@ NormalClusterGrid finest_level(const Scene::Data& scene, const SamplingOptions& 
     for (int u = stride / 2; u < scene.width; u += stride) {
       const size_t at = scene.index(u, v);
       const float z = scene.smooth_depth[at];
-      if (z <= 0) continue;
+      if (z <= 0 || scene.pixel_size(z) > options.max_pixel_size || scene.noise.at(z) > options.max_noise) continue;
       const Eigen::Vector3f ray = scene.ray(u, v), normal = scene.normals[at];
       const float slant = std::max(0.1f, -normal.dot(ray) / ray.norm());
       const float side = scene.pixel_size(z) * static_cast<float>(stride);
@@ -133,22 +134,45 @@ std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingO
   return points;
 }
 
-std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& points, float diameter, float tolerance,
+std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& points, float diameter, const NoiseCurve& noise,
                                             int threads) {
+  constexpr float kPatch = 0.25f;      // [d] the scene is summed up in patches of this size first
   constexpr float kReach = 1.25f;      // [d] how far around a point its plane is followed
   constexpr float kMaxObjectArea = 1;  // [d^2] a plane face of an object covers at most pi / 4
   constexpr float kCosine = 0.97f;     // 14 degrees
+  NormalClusterGrid grid(kPatch * diameter, 10, points.size() / 4);
+  for (const SampledPoint& p : points) grid.add(p, p.area);
+  std::vector<SampledPoint> patches;
+  for (const auto& [patch, weight] : grid.take()) patches.push_back(patch);
+
+  // Points of one coarse cell share the patches that are near enough to matter.
+  const float reach = kReach * diameter;
+  std::map<uint64_t, std::vector<uint32_t>> cells;
+  for (uint32_t i = 0; i < points.size(); ++i) cells[cell_key(points[i].surface.position, 1 / reach)].push_back(i);
+  PointGrid patch_grid(reach);
+  for (uint32_t k = 0; k < patches.size(); ++k) patch_grid.add(patches[k].surface.position, k);
+  std::vector<const std::vector<uint32_t>*> jobs;
+  for (const auto& [key, members] : cells) jobs.push_back(&members);
+
   std::vector<char> background(points.size(), 0);
-  parallel_for(points.size(), threads, [&](size_t i) {
-    const OrientedPoint& p = points[i].surface;
-    float area = 0;
-    for (const SampledPoint& other : points) {
-      const Eigen::Vector3f d = other.surface.position - p.position;
-      if (std::abs(d.dot(p.normal)) < tolerance && d.squaredNorm() < kReach * kReach * diameter * diameter &&
-          other.surface.normal.dot(p.normal) > kCosine)
-        area += other.area;
+  parallel_for(jobs.size(), threads, [&](size_t job) {
+    std::vector<SampledPoint> near;
+    patch_grid.visit_near(points[jobs[job]->front()].surface.position, [&](uint32_t k) {
+      near.push_back(patches[k]);
+      return true;
+    });
+    for (uint32_t i : *jobs[job]) {
+      const OrientedPoint& p = points[i].surface;
+      const float tolerance = 0.02f * diameter + 2 * noise.at(p.position.z());
+      float area = 0;
+      for (const SampledPoint& patch : near) {
+        const Eigen::Vector3f d = patch.surface.position - p.position;
+        if (std::abs(d.dot(p.normal)) < tolerance && d.squaredNorm() < reach * reach &&
+            patch.surface.normal.dot(p.normal) > kCosine)
+          area += patch.area;
+      }
+      background[i] = area > kMaxObjectArea * diameter * diameter;
     }
-    background[i] = area > kMaxObjectArea * diameter * diameter;
   });
   std::vector<SampledPoint> kept;
   for (size_t i = 0; i < points.size(); ++i)

@@ -22,7 +22,7 @@ std::vector<uint32_t> thin_out(const std::vector<OrientedPoint>& points, const s
 std::vector<OrientedPoint> smooth_normals(const std::vector<OrientedPoint>& points,
                                           const std::vector<uint32_t>& of, float radius, int threads);
 
-/// The largest distance between two points [m]; exact.
+/// The largest distance between two points [m], to within 0.1 %.
 float largest_distance(const std::vector<OrientedPoint>& points);
 
 }  // namespace edgepose

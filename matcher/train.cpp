@@ -17,6 +17,7 @@ namespace {
 constexpr size_t kSurfaceSamples = 80000;   // about 0.006 d apart on a compact object
 constexpr float kNormalRadius = 0.03f;      // [d] support of the table's normals, as wide as the scene's
 constexpr float kDenseNormalRadius = 0.012f;  // [d] of the finer ones
+constexpr float kSupportRadius = 0.035f;    // [d] of those compared with the scene's
 constexpr float kDenseStep = 0.018f;        // [d]
 constexpr size_t kMaxDensePoints = 8000;
 constexpr size_t kContourPointsPerView = 120;
@@ -111,6 +112,8 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
                                   2 * kDenseStep * diameter, kDenseStep * diameter});
   if (dense.size() > kMaxDensePoints) dense.resize(kMaxDensePoints);
   parts.dense_points = smooth_normals(surface, dense, kDenseNormalRadius * diameter, options.threads);
+  for (const OrientedPoint& p : smooth_normals(surface, dense, kSupportRadius * diameter, options.threads))
+    parts.support_normals.push_back(p.normal);
   store_views(look_from_all_sides(surface, parts.dense_points, directions, diameter, kContourPointsPerView,
                                   options.threads),
               parts);

@@ -1,0 +1,145 @@
+#include "matcher/free_space.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace edgepose {
+namespace {
+
+// Weights of the evidence, from a logistic regression over right and wrong candidates of rendered and real
+// scenes, each set weighing the same (docs/matcher.md).
+constexpr float kBias = 7.57f, kVisible = 1.13f, kCoverage = 1.8f, kViolations = 1.78f, kDisagreement = -0.54f,
+                kNearMiss = 2.16f, kDistance = 1.99f, kShallow = -0.75f, kDenied = 2.11f, kSpread = 1.46f;
+
+constexpr float kNear = 2.5f;       // [tolerances] farther off than surface that matches, too near for an occluder
+constexpr float kInsideStep = 2;    // [pixels] from the outline to where the object must be
+constexpr float kOutlineTolerance = 2.5f;  // in units of the surface tolerance
+
+/// True if a neighbouring pixel shows the point: an outline one pixel off is no violation.
+bool shown_beside(const Scene::Data& scene, int64_t pixel, float z, float tolerance) {
+  const int u = static_cast<int>(pixel % scene.width), v = static_cast<int>(pixel / scene.width);
+  for (const auto& [du, dv] : {std::pair{2, 0}, {-2, 0}, {0, 2}, {0, -2}}) {
+    if (!scene.inside(u + du, v + dv)) continue;
+    const float beside = scene.depth[scene.index(u + du, v + dv)];
+    if (beside > 0 && beside < z + tolerance) return true;
+  }
+  return false;
+}
+
+void examine_point(const Scene::Data& scene, const PixelProjection& projection, const PoseF& pose,
+                   const OrientedPoint& point, const Eigen::Vector3f& support_normal, const FreeSpaceOptions& options,
+                   FreeSpaceEvidence& evidence) {
+  const Eigen::Vector3f p = pose * point.position;
+  const Eigen::Vector3f normal = pose.rotation * point.normal;
+  const float slant = -normal.dot(p) / p.z();  // of the normal against the ray with z = 1
+  if (slant < 0.1f) return;                    // turned away in the true perspective
+  const int64_t pixel = projection.pixel(p);
+  if (pixel < 0) return;
+  ++evidence.expected;
+  const float z = scene.depth[pixel];
+  if (z <= 0) {
+    ++evidence.unmeasured;
+    return;
+  }
+  const float behind = z - p.z();
+  const float distance = std::abs(behind) * slant;  // along the normal
+  if (distance <= options.tolerance) {
+    const float cosine = scene.smooth_depth[pixel] > 0 ? (pose.rotation * support_normal).dot(scene.normals[pixel])
+                                                       : options.min_normal_cosine;
+    if (cosine >= options.min_normal_cosine) {
+      evidence.matched += 1;
+      evidence.distance_sum += distance;
+      evidence.cosine_sum += cosine;
+      evidence.normal_spread += normal * normal.transpose();
+    } else {
+      evidence.disagreeing += 1;
+    }
+  } else if (distance <= kNear * options.tolerance) {
+    evidence.near += 1;
+  } else if (behind < 0) {
+    ++evidence.occluded;
+    if (-behind < options.shallow_depth) ++evidence.shallow;
+  } else if (shown_beside(scene, pixel, p.z(), 2 * options.tolerance)) {
+    ++evidence.unmeasured;
+  } else {
+    ++evidence.violated;
+  }
+}
+
+void examine_outline_point(const Scene::Data& scene, const PixelProjection& projection, const PoseF& pose,
+                           const ContourPoint& point, const FreeSpaceOptions& options, FreeSpaceEvidence& evidence) {
+  const Eigen::Vector3f p = pose * point.position;
+  if (!(p.z() > 1e-3f)) return;
+  const Eigen::Vector3f beside = p + pose.rotation * point.outwards * scene.pixel_size(p.z());
+  const Eigen::Vector2f at = projection.project(p), outwards = projection.project(beside) - at;
+  const float tolerance = kOutlineTolerance * options.tolerance;
+  const Eigen::Vector2f in = at - kInsideStep * outwards;
+  const int64_t inside = projection.pixel_at(in.x(), in.y());
+  if (inside < 0) return;
+  const float z_in = scene.depth[inside];
+  if (z_in <= 0 || z_in < p.z() - tolerance) {
+    ++evidence.outline_open;
+    return;
+  }
+  if (z_in > p.z() + tolerance) {
+    ++evidence.outline_denied;
+    return;
+  }
+  // Sensors blur outlines by some pixels: the farther out the surface ends, the less that confirms.
+  for (const auto& [step, weight] : {std::pair{3.f, 1.f}, {6.f, 0.7f}, {9.f, 0.4f}}) {
+    const Eigen::Vector2f out = at + step * outwards;
+    const int64_t outside = projection.pixel_at(out.x(), out.y());
+    if (outside < 0) return;
+    const float z_out = scene.depth[outside];
+    if (z_out <= 0 || z_out > z_in + tolerance) {
+      const float sure = z_out <= 0 ? 0.5f : 1.f;
+      evidence.outline_confirmed += sure * weight;
+      evidence.outline_denied += sure * (1 - weight);
+      evidence.outline_open += 1 - sure;
+      return;
+    }
+    const bool creased = scene.smooth_depth[inside] > 0 && scene.smooth_depth[outside] > 0 &&
+                         scene.normals[inside].dot(scene.normals[outside]) < 0.87f;
+    if (z_out < z_in - tolerance || creased) {
+      ++evidence.outline_open;
+      return;
+    }
+  }
+  ++evidence.outline_denied;
+}
+
+}  // namespace
+
+FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
+                               const FreeSpaceOptions& options) {
+  FreeSpaceEvidence evidence;
+  const PixelProjection projection(scene);
+  const size_t view = view_of_pose(model, camera_T_model, box_centre(*model.header));
+  for_visible_points(model, view, options.max_points, [&](size_t i) {
+    examine_point(scene, projection, camera_T_model, model.dense_points[i], model.support_normals[i], options,
+                  evidence);
+  });
+  if (options.outline)
+    for (const ContourPoint& c : model.contour_from(view))
+      examine_outline_point(scene, projection, camera_T_model, c, options, evidence);
+  return evidence;
+}
+
+float free_space_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
+  if (e.expected < 5 || e.matched < 5) return 0;
+  const float outline = e.outline_confirmed + e.outline_denied + e.outline_open;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> spread(e.normal_spread / e.matched, Eigen::EigenvaluesOnly);
+  // Logarithms: a sensor that blurs outlines denies many of them, but one that does not denies hardly any, so
+  // the step from none to some must count more than that from some to many.
+  const float logit = kBias + kVisible * e.coverage() + kCoverage * std::log(e.coverage() + 0.02f) -
+                      kViolations * std::log1p(e.violated / (e.matched + e.violated) / 0.01f) -
+                      kDisagreement * std::log1p(e.disagreeing / (e.matched + e.disagreeing) / 0.03f) -
+                      kNearMiss * std::log1p(e.near / (e.matched + e.near) / 0.03f) -
+                      kDistance * std::min(3.f, e.distance_sum / e.matched / options.distance_scale) -
+                      kShallow * std::log1p(e.shallow / e.expected / 0.02f) -
+                      kDenied * std::log1p(outline > 0 ? e.outline_denied / outline / 0.05f : 0) +
+                      kSpread * std::log(std::max(0.f, spread.eigenvalues()[0]) + 0.01f);
+  return 1 / (1 + std::exp(-logit));
+}
+
+}  // namespace edgepose
