@@ -6,10 +6,28 @@
 namespace edgepose {
 namespace {
 
-// Weights of the evidence, from a logistic regression over right and wrong candidates of rendered and real
-// scenes, each set weighing the same (docs/matcher.md).
-constexpr float kBias = 7.57f, kVisible = 1.13f, kCoverage = 1.8f, kViolations = 1.78f, kDisagreement = -0.54f,
-                kNearMiss = 2.16f, kDistance = 1.99f, kShallow = -0.75f, kDenied = 2.11f, kSpread = 1.46f;
+/// What both judgements build on. Logarithms of shares: a sensor that blurs outlines denies many of them, one
+/// that does not denies hardly any, so the step from none to some must count more than from some to many.
+struct Features {
+  float matched, coverage, disagreeing, near, violated, denied, confirmed, distance, spread;
+
+  Features(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
+    const float outline = std::max(1.f, e.outline_confirmed + e.outline_denied + e.outline_open);
+    const auto share = [&](float against) { return against / (e.matched + against); };
+    matched = std::log(e.matched / options.typical_points + 0.02f);
+    coverage = std::log(e.coverage() + 0.02f);
+    disagreeing = std::log1p(share(e.disagreeing) / 0.03f);
+    near = std::log1p(share(e.near) / 0.03f);
+    violated = std::log1p(share(e.violated) / 0.01f);
+    denied = std::log1p(e.outline_denied / outline / 0.05f);
+    confirmed = e.outline_confirmed / outline;
+    distance = std::log(e.distance_sum / e.matched / (0.01f * options.diameter) + 0.05f);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(e.normal_spread / e.matched, Eigen::EigenvaluesOnly);
+    spread = std::log(std::max(0.f, solver.eigenvalues()[0]) + 0.01f);
+  }
+};
+
+constexpr float kTooFew = 5;  // matched points
 
 constexpr float kNear = 2.5f;       // [tolerances] farther off than surface that matches, too near for an occluder
 constexpr float kInsideStep = 2;    // [pixels] from the outline to where the object must be
@@ -125,20 +143,17 @@ FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& mode
   return evidence;
 }
 
-float free_space_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
-  if (e.expected < 5 || e.matched < 5) return 0;
-  const float outline = e.outline_confirmed + e.outline_denied + e.outline_open;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> spread(e.normal_spread / e.matched, Eigen::EigenvaluesOnly);
-  // Logarithms: a sensor that blurs outlines denies many of them, but one that does not denies hardly any, so
-  // the step from none to some must count more than that from some to many.
-  const float logit = kBias + kVisible * e.coverage() + kCoverage * std::log(e.coverage() + 0.02f) -
-                      kViolations * std::log1p(e.violated / (e.matched + e.violated) / 0.01f) -
-                      kDisagreement * std::log1p(e.disagreeing / (e.matched + e.disagreeing) / 0.03f) -
-                      kNearMiss * std::log1p(e.near / (e.matched + e.near) / 0.03f) -
-                      kDistance * std::min(3.f, e.distance_sum / e.matched / options.distance_scale) -
-                      kShallow * std::log1p(e.shallow / e.expected / 0.02f) -
-                      kDenied * std::log1p(outline > 0 ? e.outline_denied / outline / 0.05f : 0) +
-                      kSpread * std::log(std::max(0.f, spread.eigenvalues()[0]) + 0.01f);
+float rank_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
+  if (e.matched < kTooFew) return kNoEvidence;
+  const Features f(e, options);
+  return 8.9f * f.matched - 0.65f * f.disagreeing - 0.2f * f.violated - 4.9f * f.near - 3.6f * f.denied;
+}
+
+float acceptance_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
+  if (e.matched < kTooFew) return 0;
+  const Features f(e, options);
+  const float logit = 9.22f + 2.04f * f.matched + 0.67f * f.coverage + 1.14f * f.disagreeing - 1.31f * f.violated -
+                      1.17f * f.near + 0.32f * f.distance - 1.21f * f.denied + 3.8f * f.confirmed + 2.06f * f.spread;
   return 1 / (1 + std::exp(-logit));
 }
 

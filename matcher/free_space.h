@@ -27,7 +27,8 @@ struct FreeSpaceEvidence {
 struct FreeSpaceOptions {
   float tolerance = 0.002f;      ///< [m] distance within which surface is the same
   float shallow_depth = 0.01f;   ///< [m] occluders in front by less count as shallow
-  float distance_scale = 0.001f; ///< [m] typical distance of surface that matches
+  float diameter = 0.1f;         ///< [m] of the model
+  float typical_points = 500;    ///< points that a view on the unoccluded model shows, of `max_points`
   float min_normal_cosine = 0.6f;
   size_t max_points = 1000;      ///< dense points looked at; time is proportional
   bool outline = true;
@@ -37,7 +38,14 @@ struct FreeSpaceOptions {
 FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
                                const FreeSpaceOptions& options);
 
-/// [0, 1] how sure the evidence makes of the pose: the probability that it is right, by logistic regression.
-float free_space_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
+inline constexpr float kNoEvidence = -1000;
+
+/// Orders the candidates for one model in one scene; higher is better, no absolute meaning. The weights come
+/// from a conditional logistic regression (which candidate of an image is the right one) over rendered and
+/// real scenes (docs/matcher.md).
+float rank_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
+
+/// [0, 1] the probability that the best candidate is right, by logistic regression.
+float acceptance_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
 
 }  // namespace edgepose

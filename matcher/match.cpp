@@ -39,13 +39,14 @@ class Stopwatch {
 constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
 constexpr size_t kCoarseCandidates = 60;   // of each batch that are refined coarsely ...
 constexpr size_t kFineCandidates = 10;     // ... and finely
-constexpr float kSureScore = 0.95f;        // ends the search
+constexpr float kSureScore = 0.995f;        // ends the search
 constexpr size_t kMaxReferences = 900;
 
 struct Candidate {
   PoseF pose;
   float votes = 0;
-  float score = 0;
+  float score = 0;       // orders candidates
+  float confidence = 0;  // [0, 1]
   IcpResult icp;
   FreeSpaceEvidence evidence;
 };
@@ -117,14 +118,24 @@ class Search {
   }
 
  private:
+  /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
+  float typical_points(size_t limit) const {
+    std::vector<float> counts;
+    for (size_t v = 0; v < model_.view().view_directions.size(); ++v) {
+      float count = 0;
+      for_visible_points(model_.view(), v, limit, [&](size_t) { ++count; });
+      counts.push_back(count);
+    }
+    std::sort(counts.begin(), counts.end());
+    return std::max(1.f, counts[counts.size() * 9 / 10]);
+  }
   Settings settings_for(float noise) const {
     const float d = static_cast<float>(model_.diameter());
     const float tolerance = std::min(0.012f * d + 2 * noise, 0.03f * d);
-    const float scale = noise + 0.001f * d;
     Settings s;
-    s.quick = {3 * tolerance, 0.1f * d, 3 * scale, 0.5f, 150, false};
-    s.middle = {1.5f * tolerance, 0.1f * d, 1.5f * scale, 0.6f, 400, true};
-    s.full = {tolerance, 0.1f * d, scale, 0.6f, 1500, true};
+    s.quick = {3 * tolerance, 0.1f * d, d, typical_points(150), 0.5f, 150, false};
+    s.middle = {1.5f * tolerance, 0.1f * d, d, typical_points(400), 0.6f, 400, true};
+    s.full = {tolerance, 0.1f * d, d, typical_points(1500), 0.6f, 1500, true};
     s.coarse_icp.max_points = 200;
     s.coarse_icp.iterations = 6;
     s.coarse_icp.max_distance = 0.06f * d;
@@ -144,7 +155,8 @@ class Search {
   }
   void examine(Candidate& c, const FreeSpaceOptions& how) const {
     c.evidence = examine_pose(scene_, model_.view(), c.pose, how);
-    c.score = free_space_score(c.evidence, how);
+    c.score = rank_score(c.evidence, how);
+    c.confidence = acceptance_score(c.evidence, how);
   }
   void refine(std::vector<Candidate>& candidates, IcpOptions Settings::*icp, FreeSpaceOptions Settings::*how) const {
     parallel_for(candidates.size(), options_.threads, [&](size_t i) {
@@ -196,7 +208,7 @@ MatchResult match(const Scene& scene_handle, const Model& model, const MatchOpti
   sampling.step = static_cast<float>(view.header->sampling_step);
   sampling.keep_edges = options.edge_sampling;
   sampling.max_pixel_size = d / 32;
-  sampling.max_noise = 0.02f * d;
+  sampling.max_noise = 0.012f * d;
   auto sampled = sample_scene(scene, sampling);
   sampled = drop_large_planes(sampled, d, scene.noise, options.threads);
   std::vector<OrientedPoint> points;
@@ -212,7 +224,7 @@ MatchResult match(const Scene& scene_handle, const Model& model, const MatchOpti
     const size_t size = std::min(kBatch, references.size() - begin);
     search.add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(begin + size)},
                      candidates, result);
-    if (!candidates.empty() && candidates.front().score > kSureScore) break;
+    if (!candidates.empty() && candidates.front().confidence > kSureScore) break;
   }
 #ifdef EDGEPOSE_LAB
   if (lab_hook) for (auto& c : candidates) lab_hook(c.pose, c.evidence, c.score, c.icp.rms);
@@ -223,8 +235,8 @@ MatchResult match(const Scene& scene_handle, const Model& model, const MatchOpti
     Detection detection;
     detection.camera_T_model.linear() = c.pose.rotation.cast<double>();
     detection.camera_T_model.translation() = c.pose.translation.cast<double>();
-    detection.score = c.score;
-    detection.accepted = c.score >= options.accept_score;
+    detection.score = c.confidence;
+    detection.accepted = c.confidence >= options.accept_score;
     detection.coverage = c.evidence.coverage();
     detection.violations = c.evidence.violation_share();
     detection.votes = c.votes;
