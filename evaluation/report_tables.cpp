@@ -7,7 +7,9 @@
 namespace edgepose {
 namespace {
 
-std::string heading_at(double threshold) { return "RR at " + fixed(threshold, 2) + " d, %"; }
+std::string heading_at(double threshold) {
+  return std::string("RR at ").append(fixed(threshold, 2)).append(" d, %");
+}
 
 void add_recall(Table& table, const std::string& name, const std::string& measure, const Recall& recall) {
   std::vector<std::string> cells = {name, measure, count_text(recall.instances)};
@@ -37,15 +39,17 @@ std::string recall_table(const EvalReport& report) {
 }
 
 std::string group_table(const EvalReport& report) {
-  Table table(recall_header("image number mod " + std::to_string(report.group_modulo)));
+  Table table(recall_header(std::string("image number mod ").append(std::to_string(report.group_modulo))));
   const auto groups = recall_by_image_modulo(report.scores, report.group_modulo);
   for (size_t i = 0; i < groups.size(); ++i) add_recall(table, std::to_string(i), "", groups[i]);
   return table.markdown();
 }
 
 std::string share_of(size_t part, size_t whole) {
-  return count_text(part) + " of " + count_text(whole) +
-         (whole ? " (" + percent(static_cast<double>(part) / static_cast<double>(whole)) + " %)" : "");
+  std::string text = count_text(part) + " of " + count_text(whole);
+  if (whole)
+    text.append(" (").append(percent(static_cast<double>(part) / static_cast<double>(whole))).append(" %)");
+  return text;
 }
 
 std::string figures_table(const EvalReport& report) {
@@ -59,8 +63,9 @@ std::string figures_table(const EvalReport& report) {
   else
     table.add({"false positives", "not asked (only with --all-models)"});
   for (size_t k = 1; k < kThresholds.size(); ++k)
-    table.add({"accepted, of the poses correct at " + fixed(kThresholds[k], 2) + " d",
-               share_of(scores.best_guesses.correct_accepted[k], scores.best_guesses.correct[k])});
+    table.add(
+        {std::string("accepted, of the poses correct at ").append(fixed(kThresholds[k], 2)).append(" d"),
+         share_of(scores.best_guesses.correct_accepted[k], scores.best_guesses.correct[k])});
   table.add({"median error of the poses correct at 0.05 d, mm", fixed(1e3 * scores.median_error, 3)});
   table.add({"the same, ADD of objects without symmetries, mm", fixed(1e3 * scores.median_add, 3)});
   table.add({"time for an object in an image: median, ms", milliseconds(scores.time.median)});
@@ -114,7 +119,7 @@ std::string training_table(const EvalReport& report) {
 std::string result_tables(const EvalReport& report) {
   std::string text = "## Recall\n\n" + recall_table(report);
   if (report.options.all_models) text += "\nOnly accepted poses count, as in the result file.\n";
-  if (report.group_modulo > 0) text += "\n" + group_table(report);
+  if (report.group_modulo > 0) text.append("\n").append(group_table(report));
   text += "\n## Figures\n\n" + figures_table(report) + "\n## Time by stage\n\n" + stage_table(report) +
           "\n## Training\n\n" + training_table(report);
   return text;

@@ -22,12 +22,12 @@ std::string Table::markdown() const {
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string text = "|";
     for (size_t i = 0; i < widths.size(); ++i)
-      text += " " + padded(i < cells.size() ? cells[i] : "", widths[i], i == 0) + " |";
+      text.append(" ").append(padded(i < cells.size() ? cells[i] : "", widths[i], i == 0)).append(" |");
     return text + "\n";
   };
   std::string text = line(header_) + "|";
   for (size_t i = 0; i < widths.size(); ++i)
-    text += (i == 0 ? ":" : "-") + std::string(widths[i], '-') + (i == 0 ? "-|" : ":|");
+    text.append(i == 0 ? ":" : "-").append(widths[i], '-').append(i == 0 ? "-|" : ":|");
   text += "\n";
   for (const auto& row : rows_) text += line(row);
   return text;

@@ -5,6 +5,7 @@
 
 #include "client/cli/progress_bar.h"
 #include "client/cli/set_input.h"
+#include "common/error.h"
 #include "evaluation/report.h"
 
 namespace edgepose {
@@ -41,7 +42,12 @@ void EvalCommand::run() const {
   EvalOptions options = input.options();
   options.all_models = all_models;
   if (paper_mode) options.match.verification = Verification::kPaper;
-  if (!report.empty()) make_folder(report);  // find out before the work, not after it
+  // Found out before the work, not after it.
+  if (!report.empty()) make_folder(report);
+  if (const auto folder = std::filesystem::absolute(results).parent_path();
+      !results.empty() && !std::filesystem::is_directory(folder))
+    throw InputError::at(results.string(), "a folder that exists to write it to",
+                         "no folder " + folder.string(), "make it or name another with --results");
 
   const auto models = train_models(set, options, progress_bar("training"));
   const Evaluation evaluation = run_evaluation(set, models, options, progress_bar("evaluating"));
