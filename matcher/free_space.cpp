@@ -9,12 +9,13 @@ namespace {
 /// What both judgements build on. Logarithms of shares: a sensor that blurs outlines denies many of them, one
 /// that does not denies hardly any, so the step from none to some must count more than from some to many.
 struct Features {
-  float matched, coverage, disagreeing, near, violated, denied, confirmed, distance, spread;
+  float matched, unmeasured, coverage, disagreeing, near, violated, denied, confirmed, distance, spread;
 
   Features(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
     const float outline = std::max(1.f, e.outline_confirmed + e.outline_denied + e.outline_open);
     const auto share = [&](float against) { return against / (e.matched + against); };
     matched = std::log(e.matched / options.typical_points + 0.02f);
+    unmeasured = e.unmeasured / e.expected;
     coverage = std::log(e.coverage() + 0.02f);
     disagreeing = std::log1p(share(e.disagreeing) / 0.03f);
     near = std::log1p(share(e.near) / 0.03f);
@@ -146,7 +147,14 @@ FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& mode
 float rank_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
   if (e.matched < kTooFew) return kNoEvidence;
   const Features f(e, options);
-  return 8.9f * f.matched - 0.65f * f.disagreeing - 0.2f * f.violated - 4.9f * f.near - 3.6f * f.denied;
+  return 6.f * f.matched + 2.4f * f.coverage - 0.6f * f.disagreeing - 1.2f * f.violated - 3.f * f.near -
+         2.1f * f.distance - 2.6f * f.denied + 5.f * f.confirmed - 4.f * f.unmeasured;
+}
+
+float surface_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
+  if (e.matched < kTooFew) return kNoEvidence;
+  const Features f(e, options);
+  return 8.9f * f.matched - 0.65f * f.disagreeing - 0.5f * f.violated - 4.9f * f.near;
 }
 
 float acceptance_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {

@@ -45,6 +45,9 @@ inline constexpr float kNoEvidence = -1000;
 /// real scenes (docs/matcher.md).
 float rank_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
 
+/// Another order, for the choice of candidates that are worth refining: how much of the surface is there at all.
+float surface_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
+
 /// [0, 1] the probability that the best candidate is right, by logistic regression.
 float acceptance_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
 

@@ -37,15 +37,16 @@ class Stopwatch {
 };
 
 constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
-constexpr size_t kCoarseCandidates = 60;   // of each batch that are refined coarsely ...
-constexpr size_t kFineCandidates = 10;     // ... and finely
+constexpr size_t kCoarseCandidates = 40;   // of each batch that are refined coarsely ...
+constexpr size_t kFineCandidates = 6;      // ... and finely
 constexpr float kSureScore = 0.995f;        // ends the search
-constexpr size_t kMaxReferences = 900;
+constexpr size_t kMinReferences = 450, kMaxReferences = 900;  // few suffice in a large scene, a small one needs more than its share
 
 struct Candidate {
   PoseF pose;
   float votes = 0;
   float score = 0;       // orders candidates
+  float surface = 0;     // orders them by how much surface there is
   float confidence = 0;  // [0, 1]
   IcpResult icp;
   FreeSpaceEvidence evidence;
@@ -54,6 +55,16 @@ struct Candidate {
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+/// Keeps the best `count` by score and as many more by surface; ranked.
+void keep_promising(std::vector<Candidate>& candidates, size_t count) {
+  if (candidates.size() <= 2 * count) return rank(candidates);
+  rank(candidates);
+  std::stable_sort(candidates.begin() + static_cast<long>(count), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.surface > b.surface; });
+  candidates.resize(2 * count);
+  rank(candidates);
 }
 
 /// Keeps the best of each group of poses that nearly coincide.
@@ -104,12 +115,11 @@ class Search {
         examine(batch[i], settings(batch[i]).quick);
       }
     });
-    rank(batch);
-    if (batch.size() > kCoarseCandidates) batch.resize(kCoarseCandidates);
+    keep_promising(batch, kCoarseCandidates);
     result.times.verification += watch.lap();
 
     refine(batch, &Settings::coarse_icp, &Settings::middle);
-    if (batch.size() > kFineCandidates) batch.resize(kFineCandidates);
+    keep_promising(batch, kFineCandidates);
     refine(batch, &Settings::fine_icp, &Settings::full);
     ranked.insert(ranked.end(), batch.begin(), batch.end());
     rank(ranked);
@@ -156,6 +166,7 @@ class Search {
   void examine(Candidate& c, const FreeSpaceOptions& how) const {
     c.evidence = examine_pose(scene_, model_.view(), c.pose, how);
     c.score = rank_score(c.evidence, how);
+    c.surface = surface_score(c.evidence, how);
     c.confidence = acceptance_score(c.evidence, how);
   }
   void refine(std::vector<Candidate>& candidates, IcpOptions Settings::*icp, FreeSpaceOptions Settings::*how) const {
@@ -181,7 +192,8 @@ std::vector<uint32_t> pick_references(const std::vector<SampledPoint>& points, f
   std::iota(order.begin(), order.end(), 0u);
   std::mt19937_64 generator(seed);
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[generator() % i]);
-  order.resize(std::min<size_t>(kMaxReferences, static_cast<size_t>(std::ceil(share * static_cast<float>(order.size())))));
+  const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<float>(order.size())));
+  order.resize(std::min(order.size(), std::clamp(wanted, kMinReferences, kMaxReferences)));
   return order;
 }
 

@@ -119,12 +119,13 @@ std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingO
   std::vector<SampledPoint> points;
   NormalClusterGrid middle(options.step, middle_theta, fine.size());
   for (const auto& [point, weight] : fine) middle.add(point, weight);
-  if (!options.keep_edges) {
-    for (const auto& [point, weight] : middle.take()) points.push_back(point);
+  const auto middle_points = middle.take();
+  if (!options.keep_edges || middle_points.size() <= options.enough_points) {
+    for (const auto& [point, weight] : middle_points) points.push_back(point);
     return points;
   }
   NormalClusterGrid coarse(2 * options.step, coarse_theta, fine.size() / 4);
-  for (const auto& [point, weight] : middle.take()) {
+  for (const auto& [point, weight] : middle_points) {
     if (point.edge)
       points.push_back(point);
     else

@@ -18,6 +18,7 @@ struct SamplingOptions {
   float step = 0.01f;       ///< [m] grid of edge points; twice as wide where the surface is even, half in the first pass
   float fine_theta_deg = 40;   ///< [degrees] normals closer than this merge in the finest grid ...
   float theta_factor = 0.6f;   ///< ... and the threshold shrinks by this factor from level to level
+  size_t enough_points = 3000;  ///< a scene with no more points than this at `step` is not thinned further
   float max_pixel_size = 0.005f;  ///< [m] what is so far away that a pixel spans more is left out: too coarse to match
   float max_noise = 0.003f;       ///< [m] what is measured worse than this is left out too
   bool keep_edges = true;   ///< false: every point goes through the same levels up to `step` (no edge emphasis)

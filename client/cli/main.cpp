@@ -4,11 +4,13 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "client/cli/eval_command.h"
 #include "client/cli/exit_codes.h"
 #include "client/cli/info_command.h"
 #include "client/cli/match_command.h"
+#include "client/cli/nearest_word.h"
 #include "client/cli/render_command.h"
 #include "client/cli/study_command.h"
 #include "client/cli/train_command.h"
@@ -32,8 +34,21 @@ int report_bad_input(std::string message) {
   return kExitBadInput;
 }
 
+/// CLI11 would only say that a command is missing.
+void check_command(const CLI::App& app, const std::string& word) {
+  if (word.starts_with("-")) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return;
+    known.push_back(command->get_name());
+  }
+  throw InputError("no command is called '" + word + "'; did you mean " + nearest_word(word, known) +
+                   "? (edgepose --help shows all)");
+}
+
 int run(CLI::App& app, int argc, char** argv) {
   try {
+    if (argc > 1) check_command(app, argv[1]);
     app.parse(argc, argv);
     std::cout.flush();
     if (!std::cout) throw InputError("standard output: cannot write; is the disk full?");

@@ -1,5 +1,8 @@
 #include "client/cli/match_overlay.h"
 
+#include <algorithm>
+#include <array>
+
 #include "client/cli/text.h"
 
 namespace edgepose {
@@ -7,6 +10,8 @@ namespace {
 
 constexpr std::array<Colour, 6> kColours = {
     {{64, 240, 120}, {255, 150, 40}, {90, 200, 255}, {255, 100, 200}, {200, 255, 60}, {190, 140, 255}}};
+
+bool has_triangles(const ModelInput& model) { return model.mesh && !model.mesh->triangles.empty(); }
 
 bool shown(const NamedResult& named, const Detection& detection) {
   return detection.accepted || (!named.found() && &detection == &named.result.detections.front());
@@ -19,7 +24,7 @@ void write_match_overlay(const std::filesystem::path& path, const SceneInput& sc
                          const std::vector<OverlayTarget>& targets) {
   std::vector<OverlayPose> with_mesh;
   for (size_t i = 0; i < models.size(); ++i) {
-    if (!models[i].mesh || models[i].mesh->triangles.empty()) continue;
+    if (!has_triangles(models[i])) continue;
     for (const Detection& detection : results[i].result.detections) {
       if (!shown(results[i], detection)) continue;
       const char* doubt = detection.accepted ? "" : "?";
@@ -28,9 +33,12 @@ void write_match_overlay(const std::filesystem::path& path, const SceneInput& sc
                            kColours[i % kColours.size()], i == 0 ? targets : std::vector<OverlayTarget>{}});
     }
   }
-  RgbImage picture = draw_overlay(scene.image, scene.camera, with_mesh);
+  OverlayOptions options;
+  options.zoom =
+      std::all_of(models.begin(), models.end(), has_triangles);  // draw_samples() wants the whole image
+  RgbImage picture = draw_overlay(scene.image, scene.camera, with_mesh, options);
   for (size_t i = 0; i < models.size(); ++i) {
-    if (models[i].mesh && !models[i].mesh->triangles.empty()) continue;
+    if (has_triangles(models[i])) continue;
     for (const Detection& detection : results[i].result.detections) {
       if (shown(results[i], detection)) {
         draw_samples(picture, scene, models[i].model, detection.camera_T_model,

@@ -98,7 +98,7 @@ TEST(BadMesh, MissingFilesFoldersAndDevicesAreNamed) {
 TEST(BadMesh, OutputThatCannotBeWrittenIsNamed) {
   const Folder folder;
   const std::string mesh = folder.write("bracket.ply", bracket_ply(100));
-  const Run run = edgepose({"train", mesh, "-o", folder / "no_such_folder/out.model"});
+  const Finished run = edgepose({"train", mesh, "-o", folder / "no_such_folder/out.model"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, testing::HasSubstr("no_such_folder/out.model"));
   EXPECT_THAT(folder.files(), testing::ElementsAre("bracket.ply"));
@@ -110,14 +110,14 @@ TEST(BadMesh, WhatCanBeMendedIsMendedAndSaid) {
   std::string mesh = replaced(bracket_ply(100), "vertex 16", "vertex 17");
   mesh = replaced(mesh, "face 24", "face 26");
   mesh = replaced(mesh, "3 0 2 3\n", "nan nan nan\n3 0 1 16\n3 5 5 5\n3 0 2 3\n");
-  const Run run = edgepose({"info", folder.write("mend.ply", mesh)});
+  const Finished run = edgepose({"info", folder.write("mend.ply", mesh)});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("mended"));
 }
 
 TEST(BadMesh, MetresAreReadWhenAskedFor) {
   const Folder folder;
-  const Run run = edgepose({"info", folder.write("metres.ply", bracket_ply(0.1)), "--unit", "m"});
+  const Finished run = edgepose({"info", folder.write("metres.ply", bracket_ply(0.1)), "--unit", "m"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr(" mm"));
 }

@@ -41,7 +41,7 @@ TEST(BadModel, TrainingReplacesAModelAtOnceOrNotAtAll) {
   const std::string model = folder.write("m.model", "the old one");
   expect_refused(edgepose({"train", folder.write("bad.ply", "ply\n"), "-o", model}), {"bad.ply"});
   EXPECT_EQ(read_file(model), "the old one");
-  const Run run = edgepose({"train", folder.write("good.ply", bracket_ply(100)), "-o", model});
+  const Finished run = edgepose({"train", folder.write("good.ply", bracket_ply(100)), "-o", model});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(folder.files(), testing::ElementsAre("bad.ply", "good.ply", "m.model"));
   EXPECT_EQ(edgepose({"info", model}).code, 0);

@@ -14,7 +14,7 @@ std::string png(const Folder& folder, const std::string& name, const cv::Mat& im
   return folder / name;
 }
 
-Run match_depth(const std::string& depth, const std::string& camera = "504,504,319.5,287.5") {
+Finished match_depth(const std::string& depth, const std::string& camera = "504,504,319.5,287.5") {
   return edgepose({"match", phantom_model(), "--depth", depth, "--intrinsics", camera});
 }
 

@@ -9,10 +9,10 @@ namespace {
 using testing::HasSubstr;
 
 TEST(CliOptions, VersionAndHelpGoToStdoutAndAreFine) {
-  const Run version = edgepose({"--version"});
+  const Finished version = edgepose({"--version"});
   EXPECT_EQ(version.code, 0);
   EXPECT_THAT(version.out, testing::MatchesRegex("edgepose [0-9]+\\.[0-9]+\\.[0-9]+\n"));
-  const Run help = edgepose({"--help"});
+  const Finished help = edgepose({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(help.out, HasSubstr("Examples:"));
   EXPECT_EQ(help.err, "");
@@ -22,7 +22,7 @@ class CliHelp : public testing::TestWithParam<std::string> {};
 
 TEST_P(CliHelp, NamesEachCommandWithExamples) {
   EXPECT_THAT(edgepose({"--help"}).out, HasSubstr("  " + GetParam() + " "));
-  const Run run = edgepose({GetParam(), "--help"});
+  const Finished run = edgepose({GetParam(), "--help"});
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(run.out, HasSubstr("Examples:"));
   EXPECT_THAT(run.out, HasSubstr("edgepose " + GetParam() + " "));
@@ -34,6 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, CliHelp,
 TEST(CliOptions, WrongUsageIsBadInputAndNamesTheOption) {
   expect_refused(edgepose({}), {"subcommand", "--help"});
   expect_refused(edgepose({"dance"}), {"dance"});
+  expect_refused(edgepose({"mach", "m"}), {"'mach'", "match"});
   expect_refused(edgepose({"train"}), {"MESH"});
   expect_refused(edgepose({"train", "a.ply"}), {"--output"});
   expect_refused(edgepose({"train", "a.ply", "-o", "m", "--unit", "inch"}), {"--unit"});

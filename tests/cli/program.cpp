@@ -42,7 +42,7 @@ void add_box(const std::array<double, 3>& low, const std::array<double, 3>& high
 
 }  // namespace
 
-Run edgepose(const std::vector<std::string>& arguments) {
+Finished edgepose(const std::vector<std::string>& arguments) {
   const Folder folder;
   const std::string out = folder / "out", err = folder / "err";
   std::string program = std::string(EDGEPOSE_PROGRAM_DIR) + "/edgepose";
@@ -68,7 +68,7 @@ Run edgepose(const std::vector<std::string>& arguments) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }
 
-void expect_refused(const Run& run, const std::vector<std::string>& words) {
+void expect_refused(const Finished& run, const std::vector<std::string>& words) {
   EXPECT_EQ(run.code, 2) << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_THAT(run.err, testing::StartsWith("edgepose: "));
@@ -115,7 +115,7 @@ const std::string& phantom_model() {
   static const Folder folder;
   static const std::string path = [] {
     std::string model = folder / "phantom.model";
-    const Run run =
+    const Finished run =
         edgepose({"train", phantom_file("phantom.ply"), "-o", model, "--name", "vertebra_phantom"});
     EXPECT_EQ(run.code, 0) << run.err;
     return model;

@@ -5,18 +5,18 @@
 
 namespace edgepose::test {
 
-/// What a run of the program left behind.
-struct Run {
+/// What a finished run of the program left behind.
+struct Finished {
   int code = -1;  ///< exit code; -1 if it was killed by a signal
   std::string out, err;
 };
 
 /// Runs `edgepose ARGUMENTS...` and waits for it. No shell: arguments may hold anything.
-Run edgepose(const std::vector<std::string>& arguments);
+Finished edgepose(const std::vector<std::string>& arguments);
 
 /// Expects exit code 2, nothing on stdout, and one line on stderr, "edgepose: ...", that contains all of
 /// `words`.
-void expect_refused(const Run& run, const std::vector<std::string>& words);
+void expect_refused(const Finished& run, const std::vector<std::string>& words);
 
 /// A folder of its own for one test, removed afterwards.
 class Folder {
