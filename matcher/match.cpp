@@ -1,193 +1,29 @@
 #include "matcher/match.h"
 
 #include <algorithm>
-#include <functional>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <random>
 #include <stdexcept>
 
 #include "matcher/clustering.h"
-#include "matcher/free_space.h"
-#include "matcher/icp.h"
-#include "matcher/model_block.h"
+#include "matcher/detection.h"
+#include "matcher/paper_verification.h"
 #include "matcher/parallel.h"
-#include "matcher/scene_data.h"
 #include "matcher/scene_sampling.h"
-#include "matcher/voting.h"
+#include "matcher/stopwatch.h"
 
 #ifdef EDGEPOSE_LAB
+#include <functional>
 std::function<void(const edgepose::PoseF&, const edgepose::FreeSpaceEvidence&, float, float)> lab_hook;
 #endif
 namespace edgepose {
 namespace {
 
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
-constexpr size_t kCoarseCandidates = 40;   // of each batch that are refined coarsely ...
-constexpr size_t kFineCandidates = 6;      // ... and finely
-constexpr float kSureScore = 0.995f;        // ends the search
 constexpr size_t kMinReferences = 450, kMaxReferences = 900;  // few suffice in a large scene, a small one needs more than its share
 
-struct Candidate {
-  PoseF pose;
-  float votes = 0;
-  float score = 0;       // orders candidates
-  float surface = 0;     // orders them by how much surface there is
-  float confidence = 0;  // [0, 1]
-  IcpResult icp;
-  FreeSpaceEvidence evidence;
-};
-
-void rank(std::vector<Candidate>& candidates) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-}
-
-/// Keeps the best `count` by score and as many more by surface; ranked.
-void keep_promising(std::vector<Candidate>& candidates, size_t count) {
-  if (candidates.size() <= 2 * count) return rank(candidates);
-  rank(candidates);
-  std::stable_sort(candidates.begin() + static_cast<long>(count), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.surface > b.surface; });
-  candidates.resize(2 * count);
-  rank(candidates);
-}
-
-/// Keeps the best of each group of poses that nearly coincide.
-void merge_like(std::vector<Candidate>& ranked, const Model& model, float distance, float angle) {
-  const Eigen::Vector3f centre = model.centre().cast<float>();
-  std::vector<Candidate> kept;
-  for (const Candidate& c : ranked) {
-    const bool like = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-      return (k.pose * centre - c.pose * centre).norm() < distance * static_cast<float>(model.diameter()) &&
-             angle_between(k.pose.rotation, c.pose.rotation) < angle;
-    });
-    if (!like) kept.push_back(c);
-  }
-  ranked = std::move(kept);
-}
-
-/// How candidates are looked at and refined, from the quick look to the final one.
-struct Settings {
-  FreeSpaceOptions quick, middle, full;
-  IcpOptions coarse_icp, fine_icp;
-};
-
-/// Votes, clusters, verifies and refines for some of the references, and ranks what comes out among the
-/// candidates that there are.
-class Search {
- public:
-  Search(const Scene::Data& scene, const Model& model, const std::vector<OrientedPoint>& points,
-         const MatchOptions& options)
-      : scene_(scene), model_(model), points_(points), options_(options) {
-    for (int b = 0; b < NoiseCurve::kBins; ++b) settings_[b] = settings_for(scene.noise.sigma[b]);
-  }
-
-  void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked, MatchResult& result) const {
-    Stopwatch watch;
-    VotingOptions voting;
-    voting.threads = options_.threads;
-    auto hypotheses = vote(model_, points_, references, voting);
-    result.times.voting += watch.lap();
-    const auto clusters = cluster_poses(std::move(hypotheses), model_, {});
-    result.candidates += clusters.size();
-    result.times.clustering += watch.lap();
-
-    std::vector<Candidate> batch(clusters.size());
-    parallel_for((clusters.size() + 31) / 32, options_.threads, [&](size_t job) {
-      for (size_t i = job * 32; i < std::min(clusters.size(), job * 32 + 32); ++i) {
-        batch[i].pose = {clusters[i].rotation, clusters[i].translation};
-        batch[i].votes = clusters[i].votes;
-        examine(batch[i], settings(batch[i]).quick);
-      }
-    });
-    keep_promising(batch, kCoarseCandidates);
-    result.times.verification += watch.lap();
-
-    refine(batch, &Settings::coarse_icp, &Settings::middle);
-    keep_promising(batch, kFineCandidates);
-    refine(batch, &Settings::fine_icp, &Settings::full);
-    ranked.insert(ranked.end(), batch.begin(), batch.end());
-    rank(ranked);
-    merge_like(ranked, model_, 0.02f, 0.05f);
-    result.times.refinement += watch.lap();
-  }
-
- private:
-  /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
-  float typical_points(size_t limit) const {
-    std::vector<float> counts;
-    for (size_t v = 0; v < model_.view().view_directions.size(); ++v) {
-      float count = 0;
-      for_visible_points(model_.view(), v, limit, [&](size_t) { ++count; });
-      counts.push_back(count);
-    }
-    std::sort(counts.begin(), counts.end());
-    return std::max(1.f, counts[counts.size() * 9 / 10]);
-  }
-  Settings settings_for(float noise) const {
-    const float d = static_cast<float>(model_.diameter());
-    const float tolerance = std::min(0.012f * d + 2 * noise, 0.03f * d);
-    Settings s;
-    s.quick = {3 * tolerance, 0.1f * d, d, typical_points(150), 0.5f, 150, false};
-    s.middle = {1.5f * tolerance, 0.1f * d, d, typical_points(400), 0.6f, 400, true};
-    s.full = {tolerance, 0.1f * d, d, typical_points(1500), 0.6f, 1500, true};
-    s.coarse_icp.max_points = 200;
-    s.coarse_icp.iterations = 6;
-    s.coarse_icp.max_distance = 0.06f * d;
-    s.coarse_icp.min_distance = 0.02f * d + 2 * noise;
-    s.coarse_icp.surface_sigma = std::max(noise, 0.002f * d);
-    s.fine_icp = s.coarse_icp;
-    s.fine_icp.max_points = 1500;
-    s.fine_icp.iterations = 10;
-    s.fine_icp.max_distance = 0.025f * d + 2 * noise;
-    s.fine_icp.min_distance = 0.008f * d + 2 * noise;
-    s.fine_icp.outline_sigma_pixels = 4;
-    return s;
-  }
-  const Settings& settings(const Candidate& c) const {
-    const Eigen::Vector3f centre = c.pose * box_centre(*model_.view().header);
-    return settings_[NoiseCurve::bin(centre.z())];
-  }
-  void examine(Candidate& c, const FreeSpaceOptions& how) const {
-    c.evidence = examine_pose(scene_, model_.view(), c.pose, how);
-    c.score = rank_score(c.evidence, how);
-    c.surface = surface_score(c.evidence, how);
-    c.confidence = acceptance_score(c.evidence, how);
-  }
-  void refine(std::vector<Candidate>& candidates, IcpOptions Settings::*icp, FreeSpaceOptions Settings::*how) const {
-    parallel_for(candidates.size(), options_.threads, [&](size_t i) {
-      const Settings& s = settings(candidates[i]);
-      candidates[i].icp = refine_pose(scene_, model_.view(), candidates[i].pose, s.*icp);
-      candidates[i].pose = candidates[i].icp.camera_T_model;
-      examine(candidates[i], s.*how);
-    });
-    rank(candidates);
-    merge_like(candidates, model_, 0.02f, 0.05f);
-  }
-
-  const Scene::Data& scene_;
-  const Model& model_;
-  const std::vector<OrientedPoint>& points_;
-  const MatchOptions& options_;
-  std::array<Settings, NoiseCurve::kBins> settings_;  // by depth
-};
-
-std::vector<uint32_t> pick_references(const std::vector<SampledPoint>& points, float share, uint64_t seed) {
+/// A seeded random subset, so that every prefix is spread over the scene.
+std::vector<uint32_t> pick_references(const std::vector<OrientedPoint>& points, float share, uint64_t seed) {
   std::vector<uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   std::mt19937_64 generator(seed);
@@ -195,6 +31,56 @@ std::vector<uint32_t> pick_references(const std::vector<SampledPoint>& points, f
   const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<float>(order.size())));
   order.resize(std::min(order.size(), std::clamp(wanted, kMinReferences, kMaxReferences)));
   return order;
+}
+
+/// The scene's points for this model (paper Fig. 4), without the planes that are too large to be on it.
+std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& model, const MatchOptions& options) {
+  const float d = static_cast<float>(model.diameter());
+  SamplingOptions sampling;
+  sampling.step = static_cast<float>(model.view().header->sampling_step);
+  sampling.keep_edges = options.edge_sampling;
+  sampling.max_pixel_size = d / 32;
+  sampling.max_noise = 0.012f * d;
+  std::vector<OrientedPoint> points;
+  for (const SampledPoint& p : drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads))
+    points.push_back(p.surface);
+  return points;
+}
+
+/// The paper's way: all references vote at once, one pose is chosen by edges (or by surface overlap) and refined.
+std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Model& model,
+                                             const std::vector<OrientedPoint>& points,
+                                             const std::vector<uint32_t>& references, const CandidateSearch& search,
+                                             const MatchOptions& options, MatchResult& result) {
+  Stopwatch watch;
+  VotingOptions voting;
+  voting.threads = options.threads;
+  auto hypotheses = vote(model, points, references, voting);
+  result.times.voting = watch.lap();
+  const auto clusters = cluster_poses(std::move(hypotheses), model, {});
+  result.candidates = clusters.size();
+  result.times.clustering = watch.lap();
+  if (clusters.empty()) return {};
+
+  std::vector<PoseF> poses;
+  std::vector<float> votes;
+  for (const PoseHypothesis& c : clusters) poses.push_back({c.rotation, c.translation}), votes.push_back(c.votes);
+  const float d = static_cast<float>(model.diameter());
+  size_t chosen = 0;
+  if (options.verification == Verification::kPaper) {
+    const SceneEdges edges(scene, 0.01f * d, d / 32);
+    chosen = verify_like_the_paper(edges, model.view(), poses, votes, options.paper, options.threads);
+  } else {
+    const size_t looked_at = std::min<size_t>(poses.size(), 2 * static_cast<size_t>(options.paper.candidates));
+    std::vector<float> overlaps;
+    for (size_t i = 0; i < looked_at; ++i)
+      overlaps.push_back(surface_overlap(scene, model.view(), poses[i], options.paper.edge_distance * d));
+    chosen = static_cast<size_t>(std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin());
+  }
+  result.times.verification = watch.lap();
+  std::vector<Candidate> candidates = {search.finish(poses[chosen], votes[chosen])};
+  result.times.refinement = watch.lap();
+  return candidates;
 }
 
 }  // namespace
@@ -211,50 +97,63 @@ std::string MatchOptions::check() const {
 MatchResult match(const Scene& scene_handle, const Model& model, const MatchOptions& options) {
   if (const std::string fault = options.check(); !fault.empty()) throw std::invalid_argument(fault);
   const Scene::Data& scene = scene_handle.data();
-  const Model::View& view = model.view();
-  const float d = static_cast<float>(model.diameter());
   MatchResult result;
   Stopwatch watch;
-
-  SamplingOptions sampling;
-  sampling.step = static_cast<float>(view.header->sampling_step);
-  sampling.keep_edges = options.edge_sampling;
-  sampling.max_pixel_size = d / 32;
-  sampling.max_noise = 0.012f * d;
-  auto sampled = sample_scene(scene, sampling);
-  sampled = drop_large_planes(sampled, d, scene.noise, options.threads);
-  std::vector<OrientedPoint> points;
-  for (const SampledPoint& p : sampled) points.push_back(p.surface);
+  const auto points = scene_points(scene, model, options);
+  const auto references = pick_references(points, options.reference_share, options.seed);
   result.scene_points = points.size();
-  const auto references = pick_references(sampled, options.reference_share, options.seed);
   result.reference_points = references.size();
   result.times.sampling = watch.lap();
 
-  std::vector<Candidate> candidates;
-  const Search search(scene, model, points, options);
-  for (size_t begin = 0; begin < references.size(); begin += kBatch) {
-    const size_t size = std::min(kBatch, references.size() - begin);
-    search.add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(begin + size)},
-                     candidates, result);
-    if (!candidates.empty() && candidates.front().confidence > kSureScore) break;
-  }
+  const CandidateSearch search(scene, model, points, options);
+  const auto candidates = options.verification == Verification::kFreeSpace
+                              ? search.run(references, result)
+                              : choose_like_the_paper(scene, model, points, references, search, options, result);
 #ifdef EDGEPOSE_LAB
-  if (lab_hook) for (auto& c : candidates) lab_hook(c.pose, c.evidence, c.score, c.icp.rms);
+  if (lab_hook)
+    for (auto& c : candidates) lab_hook(c.pose, c.evidence, c.score, c.icp.rms);
 #endif
-
-  for (size_t i = 0; i < candidates.size() && i < static_cast<size_t>(options.max_instances); ++i) {
-    const Candidate& c = candidates[i];
-    Detection detection;
-    detection.camera_T_model.linear() = c.pose.rotation.cast<double>();
-    detection.camera_T_model.translation() = c.pose.translation.cast<double>();
-    detection.score = c.confidence;
-    detection.accepted = c.confidence >= options.accept_score;
-    detection.coverage = c.evidence.coverage();
-    detection.violations = c.evidence.violation_share();
-    detection.votes = c.votes;
-    result.detections.push_back(detection);
-  }
+  watch.lap();
+  result.detections = report_detections(scene, model, candidates, search, options);
+  result.reason = rejection_reason(candidates, options);
+  result.times.verification += watch.lap();
   return result;
+}
+
+void resolve_conflicts(const Scene& scene_handle, const std::vector<const Model*>& models,
+                       std::vector<MatchResult>& results) {
+  struct Claim {
+    size_t model, detection;
+    std::vector<uint32_t> cells;
+  };
+  const Scene::Data& scene = scene_handle.data();
+  std::vector<Claim> claims;
+  for (size_t m = 0; m < results.size(); ++m) {
+    const std::vector<OrientedPoint> none;
+    const MatchOptions defaults;
+    const CandidateSearch search(scene, *models[m], none, defaults);
+    for (size_t i = 0; i < results[m].detections.size(); ++i) {
+      const Detection& detection = results[m].detections[i];
+      if (!detection.accepted) continue;
+      const PoseF pose{detection.camera_T_model.linear().cast<float>(), detection.camera_T_model.translation().cast<float>()};
+      claims.push_back({m, i, explained_cells(scene, models[m]->view(), pose, search.settings(pose).full)});
+    }
+  }
+  // Who explains most goes first: a part that looks like a piece of another object explains less than that.
+  std::stable_sort(claims.begin(), claims.end(),
+                   [](const Claim& a, const Claim& b) { return a.cells.size() > b.cells.size(); });
+  constexpr float kTaken = 0.6f;
+  for (size_t i = 0; i < claims.size(); ++i) {
+    MatchResult& result = results[claims[i].model];
+    for (size_t k = 0; k < i; ++k) {
+      const MatchResult& other = results[claims[k].model];
+      if (!other.detections[claims[k].detection].accepted || claims[k].model == claims[i].model) continue;
+      if (overlap(claims[i].cells, claims[k].cells) < kTaken) continue;
+      result.detections[claims[i].detection].accepted = false;
+      result.reason = "what it would explain is explained better by " + models[claims[k].model]->name();
+      break;
+    }
+  }
 }
 
 }  // namespace edgepose

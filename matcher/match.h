@@ -72,4 +72,9 @@ struct MatchResult {
 /// Finds `model` in `scene` (paper Sec. 4.3, Fig. 2 g-i).
 MatchResult match(const Scene& scene, const Model& model, const MatchOptions& options = {});
 
+/// After several models were looked for in one scene (results[i] belongs to models[i]): where two detections
+/// explain the same part of the image, only the one that explains more stays accepted. Changes `accepted` and
+/// `reason` only.
+void resolve_conflicts(const Scene& scene, const std::vector<const Model*>& models, std::vector<MatchResult>& results);
+
 }  // namespace edgepose

@@ -1,0 +1,162 @@
+#include "matcher/candidate_search.h"
+
+#include <algorithm>
+
+#include "matcher/clustering.h"
+#include "matcher/parallel.h"
+#include "matcher/stopwatch.h"
+
+namespace edgepose {
+namespace {
+
+constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
+constexpr size_t kCoarseCandidates = 40;   // of each batch that are refined coarsely ...
+constexpr size_t kFineCandidates = 6;      // ... and finely
+constexpr float kSureScore = 0.995f;        // ends the search
+
+void rank(std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+/// Keeps the best `count` by score and as many more by surface; ranked.
+void keep_promising(std::vector<Candidate>& candidates, size_t count) {
+  if (candidates.size() <= 2 * count) return rank(candidates);
+  rank(candidates);
+  std::stable_sort(candidates.begin() + static_cast<long>(count), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.surface > b.surface; });
+  candidates.resize(2 * count);
+  rank(candidates);
+}
+
+/// Keeps the best of each group of poses that nearly coincide.
+void merge_like(std::vector<Candidate>& ranked, const Model& model, float distance, float angle) {
+  const Eigen::Vector3f centre = model.centre().cast<float>();
+  std::vector<Candidate> kept;
+  for (const Candidate& c : ranked) {
+    const bool like = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
+      return (k.pose * centre - c.pose * centre).norm() < distance * static_cast<float>(model.diameter()) &&
+             angle_between(k.pose.rotation, c.pose.rotation) < angle;
+    });
+    if (!like) kept.push_back(c);
+  }
+  ranked = std::move(kept);
+}
+
+}  // namespace
+
+CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model, const std::vector<OrientedPoint>& points,
+                                 const MatchOptions& options)
+    : scene_(scene), model_(model), points_(points), options_(options) {
+  for (int b = 0; b < NoiseCurve::kBins; ++b) settings_[b] = settings_for(scene.noise.sigma[b]);
+}
+
+std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references, MatchResult& result) const {
+  std::vector<Candidate> candidates;
+  for (size_t begin = 0; begin < references.size(); begin += kBatch) {
+    const size_t end = std::min(references.size(), begin + kBatch);
+    add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(end)}, candidates,
+              result);
+    // More instances may come with more references.
+    if (options_.max_instances == 1 && !candidates.empty() && candidates.front().confidence > kSureScore) break;
+  }
+  return candidates;
+}
+
+Candidate CandidateSearch::finish(const PoseF& pose, float votes) const {
+  std::vector<Candidate> one(1);
+  one[0].pose = pose;
+  one[0].votes = votes;
+  if (options_.refine) refine(one, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
+  if (options_.refine) refine(one, &VerificationSettings::fine_icp, &VerificationSettings::full);
+  if (!options_.refine) examine(one[0], settings(pose).full);
+  return one[0];
+}
+
+void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked, MatchResult& result) const {
+  Stopwatch watch;
+  VotingOptions voting;
+  voting.threads = options_.threads;
+  auto hypotheses = vote(model_, points_, references, voting);
+  result.times.voting += watch.lap();
+  const auto clusters = cluster_poses(std::move(hypotheses), model_, {});
+  result.candidates += clusters.size();
+  result.times.clustering += watch.lap();
+
+  std::vector<Candidate> batch(clusters.size());
+  parallel_for((clusters.size() + 31) / 32, options_.threads, [&](size_t job) {
+    for (size_t i = job * 32; i < std::min(clusters.size(), job * 32 + 32); ++i) {
+      batch[i].pose = {clusters[i].rotation, clusters[i].translation};
+      batch[i].votes = clusters[i].votes;
+      examine(batch[i], settings(batch[i].pose).quick);
+    }
+  });
+  keep_promising(batch, kCoarseCandidates);
+  result.times.verification += watch.lap();
+
+  refine(batch, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
+  keep_promising(batch, kFineCandidates);
+  refine(batch, &VerificationSettings::fine_icp, &VerificationSettings::full);
+  ranked.insert(ranked.end(), batch.begin(), batch.end());
+  rank(ranked);
+  merge_like(ranked, model_, 0.02f, 0.05f);
+  result.times.refinement += watch.lap();
+}
+
+/// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
+float CandidateSearch::typical_points(size_t limit) const {
+  std::vector<float> counts;
+  for (size_t v = 0; v < model_.view().view_directions.size(); ++v) {
+    float count = 0;
+    for_visible_points(model_.view(), v, limit, [&](size_t) { ++count; });
+    counts.push_back(count);
+  }
+  std::sort(counts.begin(), counts.end());
+  return std::max(1.f, counts[counts.size() * 9 / 10]);
+}
+VerificationSettings CandidateSearch::settings_for(float noise) const {
+  const float d = static_cast<float>(model_.diameter());
+  const float tolerance = std::min(0.012f * d + 2 * noise, 0.03f * d);
+  VerificationSettings s;
+  s.quick = {3 * tolerance, 0.1f * d, d, typical_points(150), 0.5f, 150, false};
+  s.middle = {1.5f * tolerance, 0.1f * d, d, typical_points(400), 0.6f, 400, true};
+  s.full = {tolerance, 0.1f * d, d, typical_points(1500), 0.6f, 1500, true};
+  s.coarse_icp.max_points = 200;
+  s.coarse_icp.iterations = 6;
+  s.coarse_icp.max_distance = 0.06f * d;
+  s.coarse_icp.min_distance = 0.02f * d + 2 * noise;
+  s.coarse_icp.surface_sigma = std::max(noise, 0.002f * d);
+  s.fine_icp = s.coarse_icp;
+  s.fine_icp.max_points = 1500;
+  s.fine_icp.iterations = 10;
+  s.fine_icp.max_distance = 0.025f * d + 2 * noise;
+  s.fine_icp.min_distance = 0.008f * d + 2 * noise;
+  s.fine_icp.outline_sigma_pixels = 4;
+  return s;
+}
+
+const VerificationSettings& CandidateSearch::settings(const PoseF& pose) const {
+  const Eigen::Vector3f centre = pose * box_centre(*model_.view().header);
+  return settings_[NoiseCurve::bin(centre.z())];
+}
+
+void CandidateSearch::examine(Candidate& c, const FreeSpaceOptions& how) const {
+  c.evidence = examine_pose(scene_, model_.view(), c.pose, how);
+  c.score = rank_score(c.evidence, how);
+  c.surface = surface_score(c.evidence, how);
+  c.confidence = acceptance_score(c.evidence, how);
+}
+
+void CandidateSearch::refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,
+                             FreeSpaceOptions VerificationSettings::*how) const {
+  parallel_for(candidates.size(), options_.threads, [&](size_t i) {
+    const VerificationSettings& s = settings(candidates[i].pose);
+    candidates[i].icp = refine_pose(scene_, model_.view(), candidates[i].pose, s.*icp);
+    candidates[i].pose = candidates[i].icp.camera_T_model;
+    examine(candidates[i], s.*how);
+  });
+  rank(candidates);
+  merge_like(candidates, model_, 0.02f, 0.05f);
+}
+
+}  // namespace edgepose

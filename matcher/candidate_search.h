@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "matcher/free_space.h"
+#include "matcher/icp.h"
+#include "matcher/match.h"
+#include "matcher/voting.h"
+
+namespace edgepose {
+
+/// A pose on its way through verification and refinement.
+struct Candidate {
+  PoseF pose;            ///< camera_T_model
+  float votes = 0;
+  float score = 0;       ///< orders candidates (rank_score)
+  float surface = 0;     ///< orders them by how much surface there is
+  float confidence = 0;  ///< [0, 1]
+  IcpResult icp;
+  FreeSpaceEvidence evidence;
+};
+
+/// How candidates are looked at and refined, from the quick look to the final one; follows the noise where
+/// the candidate is.
+struct VerificationSettings {
+  FreeSpaceOptions quick, middle, full;
+  IcpOptions coarse_icp, fine_icp;
+};
+
+/// The search of the default mode: votes, clusters, verifies and refines for a batch of references after the
+/// other, and keeps what comes out ranked (docs/matcher.md).
+class CandidateSearch {
+ public:
+  /// `points`: the sampled scene. All arguments must outlive the search.
+  CandidateSearch(const Scene::Data& scene, const Model& model, const std::vector<OrientedPoint>& points,
+                  const MatchOptions& options);
+
+  /// Looks for all `references` (indices into points), or until a candidate is beyond doubt.
+  std::vector<Candidate> run(const std::vector<uint32_t>& references, MatchResult& result) const;
+
+  /// Refines one pose finely and looks at it in full.
+  Candidate finish(const PoseF& pose, float votes) const;
+
+  const VerificationSettings& settings(const PoseF& pose) const;
+
+ private:
+  void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked, MatchResult& result) const;
+  VerificationSettings settings_for(float noise) const;
+  float typical_points(size_t limit) const;
+  void examine(Candidate& c, const FreeSpaceOptions& how) const;
+  void refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,
+              FreeSpaceOptions VerificationSettings::*how) const;
+
+  const Scene::Data& scene_;
+  const Model& model_;
+  const std::vector<OrientedPoint>& points_;
+  const MatchOptions& options_;
+  std::array<VerificationSettings, NoiseCurve::kBins> settings_;  // by depth
+};
+
+}  // namespace edgepose

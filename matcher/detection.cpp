@@ -1,0 +1,135 @@
+#include "matcher/detection.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "matcher/clustering.h"
+#include "matcher/paper_verification.h"
+
+namespace edgepose {
+namespace {
+
+constexpr int kCell = 6;                  // pixels
+constexpr float kSameThing = 0.5f;        // share of common cells above which two poses explain the same thing
+constexpr float kDifferentDistance = 0.1f;  // [d] poses farther apart than this ...
+constexpr float kDifferentAngle = 0.26f;    // ... or turned by more than 15 degrees are clearly different
+constexpr double kCorrelation = 9;        // neighbouring pixels err together: this many count as one measurement
+
+RigidTransform to_rigid(const PoseF& pose) {
+  RigidTransform t = RigidTransform::Identity();
+  t.linear() = Eigen::Quaterniond(pose.rotation.cast<double>()).normalized().toRotationMatrix();
+  t.translation() = pose.translation.cast<double>();
+  return t;
+}
+
+/// The smallest rotation that `a` and `b` differ by when the model's symmetries are used up.
+float symmetric_angle(const Symmetries& symmetries, const Eigen::Matrix3f& a, const Eigen::Matrix3f& b) {
+  float angle = angle_between(a, b);
+  for (const RigidTransform& s : symmetries.discrete)
+    angle = std::min(angle, angle_between(a * s.linear().cast<float>(), b));
+  for (const SymmetryAxis& axis : symmetries.continuous) {
+    const Eigen::Vector3f direction = axis.direction.cast<float>();
+    angle = std::min(angle, std::acos(std::clamp((a * direction).dot(b * direction), -1.f, 1.f)));
+  }
+  return angle;
+}
+
+bool clearly_different(const Model& model, const PoseF& a, const PoseF& b) {
+  const Eigen::Vector3f centre = model.centre().cast<float>();
+  return (a * centre - b * centre).norm() > kDifferentDistance * static_cast<float>(model.diameter()) ||
+         symmetric_angle(model.symmetries(), a.rotation, b.rotation) > kDifferentAngle;
+}
+
+/// Inverse of the information; directions that nothing holds get the variance of a guess (a tenth of the
+/// diameter, 0.3 rad) instead of infinity.
+Eigen::Matrix<double, 6, 6> covariance(const IcpResult& icp, double diameter) {
+  Eigen::Matrix<double, 6, 6> information = icp.information / kCorrelation;
+  information.diagonal().head<3>().array() += 1 / (0.3 * 0.3);
+  information.diagonal().tail<3>().array() += 1 / (0.01 * diameter * diameter);
+  return information.inverse();
+}
+
+}  // namespace
+
+std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
+                                      const FreeSpaceOptions& options) {
+  const PixelProjection projection(scene);
+  const size_t view = view_of_pose(model, camera_T_model, box_centre(*model.header));
+  const uint32_t cells_a_row = static_cast<uint32_t>(scene.width / kCell + 1);
+  std::vector<uint32_t> cells;
+  for_visible_points(model, view, options.max_points, [&](size_t i) {
+    const Eigen::Vector3f p = camera_T_model * model.dense_points[i].position;
+    const int64_t pixel = projection.pixel(p);
+    if (pixel < 0 || std::abs(scene.depth[pixel] - p.z()) > 2 * options.tolerance) return;
+    const auto u = static_cast<uint32_t>(pixel % scene.width), v = static_cast<uint32_t>(pixel / scene.width);
+    cells.push_back(v / kCell * cells_a_row + u / kCell);
+  });
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+float overlap(const std::vector<uint32_t>& cells, const std::vector<uint32_t>& others) {
+  if (cells.empty()) return 0;
+  std::vector<uint32_t> common;
+  std::set_intersection(cells.begin(), cells.end(), others.begin(), others.end(), std::back_inserter(common));
+  return static_cast<float>(common.size()) / static_cast<float>(cells.size());
+}
+
+std::vector<Detection> report_detections(const Scene::Data& scene, const Model& model,
+                                         const std::vector<Candidate>& ranked, const CandidateSearch& search,
+                                         const MatchOptions& options) {
+  const Model::View& view = model.view();
+  const float d = static_cast<float>(model.diameter());
+  const SceneEdges edges(scene, 0.01f * d, d / 32);
+  const NearModel near_model(view, options.paper.edge_distance * d);
+  std::vector<Detection> detections;
+  std::vector<uint32_t> explained;
+  for (const Candidate& c : ranked) {
+    if (detections.size() >= static_cast<size_t>(options.max_instances)) break;
+    const bool accepted = options.verification != Verification::kFreeSpace || c.confidence >= options.accept_score;
+    if (!detections.empty() && (!accepted || options.verification != Verification::kFreeSpace)) continue;
+    const auto cells = explained_cells(scene, view, c.pose, search.settings(c.pose).full);
+    if (overlap(cells, explained) > kSameThing) continue;
+    explained.insert(explained.end(), cells.begin(), cells.end());
+    std::sort(explained.begin(), explained.end());
+
+    Detection detection;
+    detection.camera_T_model = to_rigid(c.pose);
+    detection.score = c.confidence;
+    detection.accepted = accepted;
+    detection.edge_score = edge_score(edges, view, near_model, c.pose, options.paper);
+    detection.coverage = c.evidence.coverage();
+    detection.violations = c.evidence.violation_share();
+    detection.votes = c.votes;
+    detection.covariance = covariance(c.icp, model.diameter());
+    const auto rival = std::find_if(ranked.begin(), ranked.end(), [&](const Candidate& other) {
+      return clearly_different(model, c.pose, other.pose);
+    });
+    detection.margin = c.confidence - (rival == ranked.end() ? 0 : rival->confidence);
+    for (const RigidTransform& symmetry : model.symmetries().discrete)
+      detection.equivalent.push_back(detection.camera_T_model * symmetry);
+    detections.push_back(detection);
+  }
+  return detections;
+}
+
+std::string rejection_reason(const std::vector<Candidate>& ranked, const MatchOptions& options) {
+  if (ranked.empty()) return "no candidate pose: too few scene points where the object could be";
+  const Candidate& best = ranked.front();
+  if (options.verification != Verification::kFreeSpace || best.confidence >= options.accept_score) return "";
+  const auto percent = [](float share) { return std::to_string(std::lround(100 * share)) + " %"; };
+  const FreeSpaceEvidence& e = best.evidence;
+  std::string reason = "the best candidate has score " + std::to_string(best.confidence).substr(0, 4) + " of the " +
+                       std::to_string(options.accept_score).substr(0, 4) + " wanted: " + percent(e.coverage()) +
+                       " of the expected surface is there";
+  if (e.violation_share() > 0.03f) reason += ", the scene sees through " + percent(e.violation_share());
+  if (e.expected > 0 && e.occluded / e.expected > 0.3f) reason += ", " + percent(e.occluded / e.expected) + " would be hidden";
+  if (e.expected > 0 && e.near / e.expected > 0.15f) reason += ", " + percent(e.near / e.expected) + " lies beside the surface";
+  const float outline = e.outline_confirmed + e.outline_denied + e.outline_open;
+  if (outline > 0 && e.outline_denied / outline > 0.1f) reason += ", " + percent(e.outline_denied / outline) + " of its outline is contradicted";
+  return reason;
+}
+
+}  // namespace edgepose
