@@ -45,6 +45,7 @@ std::vector<double> numbers(std::string_view field, size_t count, const std::str
   if (parts.size() != count)
     throw InputError::at(where, std::to_string(count) + " values as " + what, std::to_string(parts.size()));
   std::vector<double> values;
+  values.reserve(count);
   for (const std::string_view part : parts) values.push_back(number(part, where, what));
   return values;
 }

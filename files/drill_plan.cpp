@@ -26,7 +26,7 @@ double length(const JsonNode& node) {
 }
 
 std::string name_of(const JsonNode& node) {
-  const std::string name = node.text();
+  std::string name = node.text();
   if (trim(name).empty() || name.size() > 200) node.fail("a name of 1 to 200 characters");
   return name;
 }

@@ -20,7 +20,7 @@ std::string read_whole_file(const std::filesystem::path& path, const std::string
   while (done < bytes.size()) {
     const ssize_t count = read(file.descriptor(), bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw InputError::at(path.string(), what, file.last_error());
+    if (count < 0) throw InputError::at(path.string(), what, RegularFile::last_error());
     if (count == 0) break;  // somebody shortens the file while we read it: the parser sees a truncated one
     done += static_cast<size_t>(count);
   }
