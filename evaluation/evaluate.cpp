@@ -43,25 +43,24 @@ std::vector<const TrainedModel*> models_for(const TestImage& image, const std::v
   return asked;
 }
 
-EvalRow ask(const TestImage& image, const Scene& scene, const TrainedModel& model,
-            const MatchOptions& options) {
+/// A row without the answer, which comes after all models were asked.
+EvalRow row_for(const TestImage& image, const TrainedModel& model) {
   EvalRow row;
   row.scene_id = image.scene_id;
   row.image_id = image.image_id;
   row.object_id = model.object_id;
-  const auto start = Clock::now();
-  const MatchResult result = match(scene, model.model, options);
-  row.seconds = seconds_since(start);
+  return row;
+}
+
+void fill_in(const MatchResult& result, EvalRow& row) {
   row.stages = result.times;
   row.reason = result.reason;
-  if (!result.detections.empty()) {
-    const Detection& best = result.detections.front();
-    row.found = true;
-    row.accepted = best.accepted;
-    row.score = best.score;
-    row.camera_T_model = best.camera_T_model;
-  }
-  return row;
+  if (result.detections.empty()) return;
+  const Detection& best = result.detections.front();
+  row.found = true;
+  row.accepted = best.accepted;
+  row.score = best.score;
+  row.camera_T_model = best.camera_T_model;
 }
 
 /// A depth image, or a cloud projected to one.
@@ -97,12 +96,26 @@ void evaluate_image(const TestImage& image, const std::vector<const TrainedModel
   const std::string file = (image.cloud.empty() ? image.depth : image.cloud).string();
   const Scene scene = naming(file, [&] { return prepare_scene(input.depth, input.camera, options.scene); });
   const double preprocessing = (input.seconds + seconds_since(start)) / static_cast<double>(asked.size());
+  std::vector<EvalRow> rows;
+  std::vector<MatchResult> results;
+  std::vector<const Model*> models;
   for (const TrainedModel* model : asked) {
-    EvalRow row = ask(image, scene, *model, options.match);
-    row.preprocessing = preprocessing;
-    row.seconds += preprocessing;
-    row.camera_T_model = input.truth_T_camera * row.camera_T_model;
-    evaluation.rows.push_back(std::move(row));
+    const auto asked_at = Clock::now();
+    results.push_back(match(scene, model->model, options.match));
+    models.push_back(&model->model);
+    rows.push_back(row_for(image, *model));
+    rows.back().seconds = seconds_since(asked_at) + preprocessing;
+    rows.back().preprocessing = preprocessing;
+  }
+  // Only where absent objects are asked for, too, do models compete for the same part of the image.
+  const auto conflicts_at = Clock::now();
+  if (options.all_models) resolve_conflicts(scene, models, results);
+  const double share = seconds_since(conflicts_at) / static_cast<double>(asked.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    fill_in(results[i], rows[i]);
+    rows[i].seconds += share;
+    rows[i].camera_T_model = input.truth_T_camera * rows[i].camera_T_model;
+    evaluation.rows.push_back(std::move(rows[i]));
   }
   evaluation.cpu_seconds += process_cpu_seconds() - cpu_start;
   evaluation.wall_seconds += input.seconds + seconds_since(start);

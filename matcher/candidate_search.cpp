@@ -1,6 +1,7 @@
 #include "matcher/candidate_search.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "matcher/clustering.h"
 #include "matcher/parallel.h"
@@ -9,10 +10,25 @@
 namespace edgepose {
 namespace {
 
+// Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely.
+constexpr size_t kQuickPoints = 150, kMiddlePoints = 400, kFullPoints = 1500;
 constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
 constexpr size_t kCoarseCandidates = 40;   // of each batch that are refined coarsely ...
 constexpr size_t kFineCandidates = 6;      // ... and finely
 constexpr float kSureScore = 0.995f;        // ends the search
+
+/// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
+float typical_points(const Model::View& model, size_t limit) {
+  std::vector<int> counts;
+  for (size_t v = 0; v < model.view_directions.size(); ++v) {
+    int count = 0;
+    for (size_t w = 0; w < std::min(model.words_per_view(), limit / 64 + 1); ++w)
+      count += std::popcount(model.visible_from(v)[w]);
+    counts.push_back(count);
+  }
+  std::sort(counts.begin(), counts.end());
+  return std::max(1.f, static_cast<float>(counts[counts.size() * 9 / 10]));
+}
 
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -48,7 +64,10 @@ void merge_like(std::vector<Candidate>& ranked, const Model& model, float distan
 CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model, const std::vector<OrientedPoint>& points,
                                  const MatchOptions& options)
     : scene_(scene), model_(model), points_(points), options_(options) {
-  for (int b = 0; b < NoiseCurve::kBins; ++b) settings_[b] = settings_for(scene.noise.sigma[b]);
+  const Model::View& view = model.view();
+  const std::array<float, 3> typical = {typical_points(view, kQuickPoints), typical_points(view, kMiddlePoints),
+                                        typical_points(view, kFullPoints)};
+  for (int b = 0; b < NoiseCurve::kBins; ++b) settings_[b] = settings_for(scene.noise.sigma[b], typical);
 }
 
 std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references, MatchResult& result) const {
@@ -103,24 +122,13 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
   result.times.refinement += watch.lap();
 }
 
-/// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
-float CandidateSearch::typical_points(size_t limit) const {
-  std::vector<float> counts;
-  for (size_t v = 0; v < model_.view().view_directions.size(); ++v) {
-    float count = 0;
-    for_visible_points(model_.view(), v, limit, [&](size_t) { ++count; });
-    counts.push_back(count);
-  }
-  std::sort(counts.begin(), counts.end());
-  return std::max(1.f, counts[counts.size() * 9 / 10]);
-}
-VerificationSettings CandidateSearch::settings_for(float noise) const {
+VerificationSettings CandidateSearch::settings_for(float noise, const std::array<float, 3>& typical) const {
   const float d = static_cast<float>(model_.diameter());
   const float tolerance = std::min(0.012f * d + 2 * noise, 0.03f * d);
   VerificationSettings s;
-  s.quick = {3 * tolerance, 0.1f * d, d, typical_points(150), 0.5f, 150, false};
-  s.middle = {1.5f * tolerance, 0.1f * d, d, typical_points(400), 0.6f, 400, true};
-  s.full = {tolerance, 0.1f * d, d, typical_points(1500), 0.6f, 1500, true};
+  s.quick = {3 * tolerance, 0.1f * d, d, typical[0], 0.5f, kQuickPoints, false};
+  s.middle = {1.5f * tolerance, 0.1f * d, d, typical[1], 0.6f, kMiddlePoints, true};
+  s.full = {tolerance, 0.1f * d, d, typical[2], 0.6f, kFullPoints, true};
   s.coarse_icp.max_points = 200;
   s.coarse_icp.iterations = 6;
   s.coarse_icp.max_distance = 0.06f * d;

@@ -45,8 +45,7 @@ class CandidateSearch {
 
  private:
   void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked, MatchResult& result) const;
-  VerificationSettings settings_for(float noise) const;
-  float typical_points(size_t limit) const;
+  VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;
   void examine(Candidate& c, const FreeSpaceOptions& how) const;
   void refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,
               FreeSpaceOptions VerificationSettings::*how) const;

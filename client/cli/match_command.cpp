@@ -84,10 +84,18 @@ void MatchCommand::run() const {
   }
 
   const Scene scene = prepare_scene(input.image, input.camera, options.scene);
-  std::vector<NamedResult> results;
+  std::vector<MatchResult> answers;
+  std::vector<const Model*> asked;
   for (const ModelInput& model : inputs) {
-    results.push_back({model.model.name(), model.file.string(), model.model.diameter(), model.model.centre(),
-                       model.model.symmetries(), match(scene, model.model, options.match)});
+    answers.push_back(match(scene, model.model, options.match));
+    asked.push_back(&model.model);
+  }
+  resolve_conflicts(scene, asked, answers);
+  std::vector<NamedResult> results;
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    const Model& model = inputs[i].model;
+    results.push_back({model.name(), inputs[i].file.string(), model.diameter(), model.centre(), model.symmetries(),
+                       std::move(answers[i])});
   }
 
   if (!overlay.empty()) {
