@@ -135,8 +135,8 @@ std::string script_of(const Plot& plot) {
       << "set terminal pngcairo noenhanced size 960,600 font 'Sans,13' background '#ffffff'\n"
       << "set title '" << harmless_text(plot.title) << "'\nset xlabel '" << harmless_text(plot.x_label)
       << "'\nset ylabel '" << harmless_text(plot.y_label) << "'\n"
-      << "set grid ytics lt 1 lw 1 lc rgb '#d8d8d8'\nset border 3\nset tics nomirror\nset key outside right "
-         "top\n"
+      << "set grid ytics lt 1 lw 1 lc rgb '#d8d8d8'\nset border 3\n"
+      << "set tics nomirror\nset key above\n"
       << colours() << (plot.y_percent ? "set yrange [0:105]\nset ytics 10\n" : "set yrange [0:*]\n")
       << (plot.log_x ? "set logscale x\n" : "");
   const bool bars = plot.kind == Plot::Kind::kBars || plot.kind == Plot::Kind::kStackedBars;

@@ -37,6 +37,13 @@ std::string EvalCommand::command_line() const {
   return text;
 }
 
+void require_folder_of(const std::filesystem::path& file) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw InputError::at(file.string(), "a folder that exists to write it to", "no folder " + folder.string(),
+                         "make it or name another with --results");
+}
+
 void EvalCommand::run() const {
   const TestSet set = input.read();
   EvalOptions options = input.options();
@@ -44,10 +51,7 @@ void EvalCommand::run() const {
   if (paper_mode) options.match.verification = Verification::kPaper;
   // Found out before the work, not after it.
   if (!report.empty()) make_folder(report);
-  if (const auto folder = std::filesystem::absolute(results).parent_path();
-      !results.empty() && !std::filesystem::is_directory(folder))
-    throw InputError::at(results.string(), "a folder that exists to write it to",
-                         "no folder " + folder.string(), "make it or name another with --results");
+  if (!results.empty()) require_folder_of(results);
 
   const auto models = train_models(set, options, progress_bar("training"));
   const Evaluation evaluation = run_evaluation(set, models, options, progress_bar("evaluating"));

@@ -94,7 +94,7 @@ TEST_F(Evaluate, DisturbedImagesReachTheMatcher) {
 TEST_F(Evaluate, TheReportIsWritten) {
   const Evaluation evaluation = run_evaluation(rendered->set, models, {});
   const Scores scores = score_results(rendered->set, make_pose_errors(rendered->set), evaluation.rows);
-  const std::filesystem::path folder = rendered->set.objects[0].mesh.parent_path() / "report";
+  const std::filesystem::path folder = rendered->folder / "report";
   const std::string warning =
       write_report({rendered->set, {}, models, evaluation, scores, 0, "edgepose eval"}, folder);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.md"));
@@ -122,7 +122,7 @@ TEST_F(Evaluate, BadInputIsNamed) {
     run_evaluation(set, models, {});
     FAIL() << "a camera with negative focal length was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("0.png"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("000000.png"), std::string::npos) << error.what();
   }
   set.images[0].depth = set.objects[0].mesh;  // no PNG
   EXPECT_THROW(run_evaluation(set, models, {}), InputError);

@@ -2,7 +2,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <sstream>
 
+#include "common/atomic_file.h"
 #include "files/depth_file.h"
 #include "files/mesh_file.h"
 #include "files/test_set.h"
@@ -20,15 +22,15 @@ inline void add_box(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3
   for (const auto& f : kFaces) mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
 }
 
-/// A small test set on disk that needs no data from elsewhere: two stepped blocks of about 0.2 m. Image 0
+/// A small BOP set on disk that needs no data from elsewhere: two stepped blocks of about 0.2 m. Image 0
 /// shows both side by side, image 1 only the first.
 class RenderedSet {
  public:
   RenderedSet()
-      : folder_(std::filesystem::temp_directory_path() / ("edgepose_set_" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    set.name = "rendered";
+      : folder(std::filesystem::temp_directory_path() / ("edgepose_set_" + std::to_string(getpid()))) {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "models");
+    std::filesystem::create_directories(folder / "test" / "000001" / "depth");
     Mesh stairs, tower;
     add_box(stairs, {-0.08f, -0.05f, -0.04f}, {0.08f, 0.05f, 0});
     add_box(stairs, {-0.08f, -0.05f, 0}, {-0.02f, 0.05f, 0.05f});
@@ -36,50 +38,54 @@ class RenderedSet {
     add_box(tower, {-0.03f, -0.03f, -0.08f}, {0.03f, 0.03f, 0.08f});
     add_box(tower, {0.03f, -0.03f, -0.08f}, {0.09f, 0.01f, -0.03f});
     add_box(tower, {-0.03f, 0.03f, 0.02f}, {0.02f, 0.07f, 0.08f});
-    add_object(1, "stairs", stairs, 0.20);
-    add_object(2, "tower", tower, 0.21);
-    add_image(0, {truth(1, -0.12, 0.4), truth(2, 0.14, 1.9)}, {stairs, tower});
-    add_image(1, {truth(1, 0.05, 2.2)}, {stairs});
+    write_ply(folder / "models" / "obj_000001.ply", stairs);
+    write_ply(folder / "models" / "obj_000002.ply", tower);
+    write_file_atomically(
+        folder / "models" / "models_info.json",
+        R"({"1": {"name": "stairs", "diameter": 200}, "2": {"name": "tower", "diameter": 210}})");
+    const RigidTransform left = pose(-0.12, 0.4), right = pose(0.14, 1.9), middle = pose(0.05, 2.2);
+    write_image(0, {{stairs, left}, {tower, right}});
+    write_image(1, {{stairs, middle}});
+    const std::filesystem::path scene = folder / "test" / "000001";
+    const std::string camera = R"({"cam_K": [500, 0, 159.5, 0, 500, 119.5, 0, 0, 1], "depth_scale": 0.1})";
+    write_file_atomically(scene / "scene_camera.json", "{\"0\": " + camera + ", \"1\": " + camera + "}");
+    write_file_atomically(scene / "scene_gt.json", "{\"0\": [" + truth(1, left) + ", " + truth(2, right) +
+                                                       "], \"1\": [" + truth(1, middle) + "]}");
+    const std::string visible = R"({"px_count_visib": 5000, "visib_fract": 1.0})";
+    write_file_atomically(scene / "scene_gt_info.json",
+                          "{\"0\": [" + visible + ", " + visible + "], \"1\": [" + visible + "]}");
+    set = read_test_set(folder);
   }
-  ~RenderedSet() { std::filesystem::remove_all(folder_); }
+  ~RenderedSet() { std::filesystem::remove_all(folder); }
   RenderedSet(const RenderedSet&) = delete;
   RenderedSet& operator=(const RenderedSet&) = delete;
 
+  std::filesystem::path folder;
   TestSet set;
 
  private:
-  static GroundTruth truth(int object, double x, double angle) {
-    GroundTruth truth;
-    truth.object_id = object;
-    truth.camera_T_model.linear() =
-        Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 0.5).normalized()).toRotationMatrix();
-    truth.camera_T_model.translation() = Eigen::Vector3d(x, 0.02, 0.8);
-    return truth;
+  static RigidTransform pose(double x, double angle) {
+    RigidTransform camera_T_model(Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 0.5).normalized()));
+    camera_T_model.translation() = Eigen::Vector3d(x, 0.02, 0.8);
+    return camera_T_model;
   }
-  void add_object(int id, const std::string& name, const Mesh& mesh, double diameter) {
-    TestObject object;
-    object.id = id;
-    object.name = name;
-    object.mesh = folder_ / (name + ".ply");
-    object.diameter = diameter;
-    write_ply(object.mesh, mesh);
-    set.objects.push_back(object);
+  static std::string truth(int object, const RigidTransform& pose) {
+    std::ostringstream text;
+    text.precision(12);
+    text << "{\"obj_id\": " << object << ", \"cam_R_m2c\": [";
+    for (int i = 0; i < 9; ++i) text << (i ? ", " : "") << pose.linear()(i / 3, i % 3);
+    text << "], \"cam_t_m2c\": [";
+    for (int i = 0; i < 3; ++i) text << (i ? ", " : "") << 1e3 * pose.translation()[i];
+    text << "]}";
+    return text.str();
   }
-  void add_image(int id, std::vector<GroundTruth> truths, const std::vector<Mesh>& meshes) {
+  void write_image(int id, const std::vector<std::pair<Mesh, RigidTransform>>& objects) {
     DepthRenderer renderer;
-    for (size_t i = 0; i < meshes.size(); ++i) renderer.add(meshes[i], truths[i].camera_T_model);
-    TestImage image;
-    image.scene_id = 1;
-    image.image_id = id;
-    image.camera = {500, 500, 159.5, 119.5};
-    image.depth_scale = 1e-4;
-    image.depth = folder_ / (std::to_string(id) + ".png");
-    image.truth = std::move(truths);
-    write_depth_png(image.depth, renderer.render(image.camera, 320, 240).depth, image.depth_scale);
-    set.images.push_back(image);
+    for (const auto& [mesh, camera_T_model] : objects) renderer.add(mesh, camera_T_model);
+    const Camera camera{500, 500, 159.5, 119.5};
+    write_depth_png(folder / "test" / "000001" / "depth" / ("00000" + std::to_string(id) + ".png"),
+                    renderer.render(camera, 320, 240).depth, 1e-4);
   }
-
-  std::filesystem::path folder_;
 };
 
 }  // namespace edgepose

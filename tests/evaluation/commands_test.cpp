@@ -1,0 +1,99 @@
+/// `edgepose eval` and `edgepose study` as processes.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "files/bop_results.h"
+#include "tests/evaluation/rendered_set.h"
+
+namespace edgepose {
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string text;  ///< stdout and stderr
+};
+
+Outcome run(const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = popen(("'" EDGEPOSE_PROGRAM_DIR "/edgepose' " + arguments + " 2>&1").c_str(), "r");
+  if (!pipe) return outcome;
+  char buffer[4096];
+  while (size_t n = fread(buffer, 1, sizeof buffer, pipe)) outcome.text.append(buffer, n);
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+class Commands : public ::testing::Test {
+ protected:
+  RenderedSet rendered;
+  std::string set = "'" + rendered.folder.string() + "'";
+};
+
+TEST_F(Commands, EvalPrintsTablesWithoutAnyFile) {
+  const Outcome outcome = run("eval " + set);
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("| stairs "), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("MR, all instances pooled"), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find('\r'), std::string::npos) << "no progress bar where there is no terminal";
+}
+
+TEST_F(Commands, EvalWritesOneRowForEachListedObject) {
+  const auto results = rendered.folder / "out.csv";
+  const Outcome outcome = run("eval " + set + " --results '" + results.string() + "' --group-by-modulo 2");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("image number mod 2"), std::string::npos) << outcome.text;
+  EXPECT_EQ(read_bop_results(results).size(), 3u);
+}
+
+TEST_F(Commands, EvalTakesAPartOfTheSet) {
+  const auto results = rendered.folder / "out.csv";
+  const Outcome outcome =
+      run("eval " + set + " --objects stairs --images 1 --threads 1 --results '" + results.string() + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  const auto rows = read_bop_results(results);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].image_id, 1);
+  EXPECT_EQ(rows[0].object_id, 1);
+  EXPECT_GT(rows[0].time, 0);
+}
+
+TEST_F(Commands, StudyWritesATableAtOnce) {
+  const auto report = rendered.folder / "study";
+  const Outcome outcome =
+      run("study " + set + " --objects 1 --images 1 --experiment verification --report '" + report.string() +
+          "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("edge score S (paper)"), std::string::npos) << outcome.text;
+  EXPECT_TRUE(std::filesystem::exists(report / "study.md"));
+}
+
+TEST_F(Commands, BadInputIsOneLineAndExitCodeTwo) {
+  std::ofstream(rendered.folder / "file") << "x";
+  const std::string file = "'" + (rendered.folder / "file").string() + "'";
+  for (const std::string& arguments :
+       {std::string("eval"), std::string("eval /no/such/set"), "eval " + set + " --images 7-3",
+        "eval " + set + " --images 5", "eval " + set + " --objects cone", "eval " + set + " --threads -1",
+        "eval " + set + " --group-by-modulo 0", "eval " + set + " --results /no/such/folder/out.csv",
+        "eval " + set + " --report " + file, "eval " + set + " --config /no/such.toml", std::string("study"),
+        "study " + set + " --experiment colour", "study " + file}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.text;
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << arguments << "\n"
+                                                                             << outcome.text;
+  }
+}
+
+TEST_F(Commands, ADamagedSetIsRefused) {
+  std::ofstream(rendered.folder / "test" / "000001" / "depth" / "000001.png") << "no PNG";
+  const Outcome outcome = run("eval " + set);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.text.find("000001.png"), std::string::npos) << outcome.text;
+}
+
+}  // namespace
+}  // namespace edgepose
