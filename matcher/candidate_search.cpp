@@ -11,7 +11,7 @@ namespace edgepose {
 namespace {
 
 // Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely.
-constexpr size_t kQuickPoints = 150, kMiddlePoints = 400, kFullPoints = 1500;
+constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500;
 constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
 constexpr size_t kCoarseCandidates = 40;   // of each batch that are refined coarsely ...
 constexpr size_t kFineCandidates = 6;      // ... and finely
@@ -107,6 +107,8 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
     for (size_t i = job * 32; i < std::min(clusters.size(), job * 32 + 32); ++i) {
       batch[i].pose = {clusters[i].rotation, clusters[i].translation};
       batch[i].votes = clusters[i].votes;
+      // A few steps first: a pose just voted for is off by some hundredths of the diameter, too much to be judged.
+      batch[i].pose = refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp).camera_T_model;
       examine(batch[i], settings(batch[i].pose).quick);
     }
   });
@@ -126,9 +128,14 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
   const float d = static_cast<float>(model_.diameter());
   const float tolerance = std::min(0.012f * d + 2 * noise, 0.03f * d);
   VerificationSettings s;
-  s.quick = {3 * tolerance, 0.1f * d, d, typical[0], 0.5f, kQuickPoints, false};
+  s.quick = {2 * tolerance, 0.1f * d, d, typical[0], 0.5f, kQuickPoints, false};
   s.middle = {1.5f * tolerance, 0.1f * d, d, typical[1], 0.6f, kMiddlePoints, true};
   s.full = {tolerance, 0.1f * d, d, typical[2], 0.6f, kFullPoints, true};
+  s.first_icp.max_points = kQuickPoints;
+  s.first_icp.iterations = 3;
+  s.first_icp.max_distance = 0.08f * d;
+  s.first_icp.min_distance = 0.05f * d;
+  s.first_icp.outline = false;
   s.coarse_icp.max_points = 200;
   s.coarse_icp.iterations = 6;
   s.coarse_icp.max_distance = 0.06f * d;

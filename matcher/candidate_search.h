@@ -24,7 +24,7 @@ struct Candidate {
 /// the candidate is.
 struct VerificationSettings {
   FreeSpaceOptions quick, middle, full;
-  IcpOptions coarse_icp, fine_icp;
+  IcpOptions first_icp, coarse_icp, fine_icp;
 };
 
 /// The search of the default mode: votes, clusters, verifies and refines for a batch of references after the
