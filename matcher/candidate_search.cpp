@@ -12,10 +12,10 @@ namespace {
 
 // Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely.
 constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500;
-constexpr size_t kBatch = 150;             // references voted for before the next look at the candidates
-constexpr size_t kCoarseCandidates = 40;   // of each batch that are refined coarsely ...
-constexpr size_t kFineCandidates = 6;      // ... and finely
-constexpr float kSureScore = 0.995f;        // ends the search
+constexpr size_t kBatch = 150;            // references voted for before the next look at the candidates
+constexpr size_t kCoarseCandidates = 40;  // of each batch that are refined coarsely ...
+constexpr size_t kFineCandidates = 6;     // ... and finely
+constexpr float kSureScore = 0.995f;      // ends the search
 
 /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
 float typical_points(const Model::View& model, size_t limit) {
@@ -61,23 +61,26 @@ void merge_like(std::vector<Candidate>& ranked, const Model& model, float distan
 
 }  // namespace
 
-CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model, const std::vector<OrientedPoint>& points,
-                                 const MatchOptions& options)
+CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model,
+                                 const std::vector<OrientedPoint>& points, const MatchOptions& options)
     : scene_(scene), model_(model), points_(points), options_(options) {
   const Model::View& view = model.view();
-  const std::array<float, 3> typical = {typical_points(view, kQuickPoints), typical_points(view, kMiddlePoints),
+  const std::array<float, 3> typical = {typical_points(view, kQuickPoints),
+                                        typical_points(view, kMiddlePoints),
                                         typical_points(view, kFullPoints)};
   for (int b = 0; b < NoiseCurve::kBins; ++b) settings_[b] = settings_for(scene.noise.sigma[b], typical);
 }
 
-std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references, MatchResult& result) const {
+std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references,
+                                            MatchResult& result) const {
   std::vector<Candidate> candidates;
   for (size_t begin = 0; begin < references.size(); begin += kBatch) {
     const size_t end = std::min(references.size(), begin + kBatch);
-    add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(end)}, candidates,
-              result);
+    add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(end)},
+              candidates, result);
     // More instances may come with more references.
-    if (options_.max_instances == 1 && !candidates.empty() && candidates.front().confidence > kSureScore) break;
+    if (options_.max_instances == 1 && !candidates.empty() && candidates.front().confidence > kSureScore)
+      break;
   }
   return candidates;
 }
@@ -92,7 +95,8 @@ Candidate CandidateSearch::finish(const PoseF& pose, float votes) const {
   return one[0];
 }
 
-void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked, MatchResult& result) const {
+void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked,
+                                MatchResult& result) const {
   Stopwatch watch;
   VotingOptions voting;
   voting.threads = options_.threads;
@@ -107,8 +111,10 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
     for (size_t i = job * 32; i < std::min(clusters.size(), job * 32 + 32); ++i) {
       batch[i].pose = {clusters[i].rotation, clusters[i].translation};
       batch[i].votes = clusters[i].votes;
-      // A few steps first: a pose just voted for is off by some hundredths of the diameter, too much to be judged.
-      batch[i].pose = refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp).camera_T_model;
+      // A few steps first: a pose just voted for is off by some hundredths of the diameter, too much to be
+      // judged.
+      batch[i].pose =
+          refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp).camera_T_model;
       examine(batch[i], settings(batch[i].pose).quick);
     }
   });

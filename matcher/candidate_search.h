@@ -11,7 +11,7 @@ namespace edgepose {
 
 /// A pose on its way through verification and refinement.
 struct Candidate {
-  PoseF pose;            ///< camera_T_model
+  PoseF pose;  ///< camera_T_model
   float votes = 0;
   float score = 0;       ///< orders candidates (rank_score)
   float surface = 0;     ///< orders them by how much surface there is
@@ -44,7 +44,8 @@ class CandidateSearch {
   const VerificationSettings& settings(const PoseF& pose) const;
 
  private:
-  void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked, MatchResult& result) const;
+  void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked,
+                 MatchResult& result) const;
   VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;
   void examine(Candidate& c, const FreeSpaceOptions& how) const;
   void refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,

@@ -12,7 +12,8 @@ float angle_between(const Eigen::Matrix3f& a, const Eigen::Matrix3f& b) {
   return std::acos(std::clamp(cosine, -1.f, 1.f));
 }
 
-Eigen::Matrix3f mean_rotation(const std::vector<Eigen::Matrix3f>& rotations, const std::vector<float>& weights) {
+Eigen::Matrix3f mean_rotation(const std::vector<Eigen::Matrix3f>& rotations,
+                              const std::vector<float>& weights) {
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (size_t i = 0; i < rotations.size(); ++i) {
     const Eigen::Vector4d q = Eigen::Quaternionf(rotations[i]).normalized().coeffs().cast<double>();

@@ -6,8 +6,8 @@
 namespace edgepose {
 
 struct ClusteringOptions {
-  float max_distance = 0.1f;    ///< [d] between the model centres of any two poses of a cluster
-  float max_angle_deg = 30;     ///< [degrees] between any two poses of a cluster
+  float max_distance = 0.1f;  ///< [d] between the model centres of any two poses of a cluster
+  float max_angle_deg = 30;   ///< [degrees] between any two poses of a cluster
 };
 
 /// Groups like poses and averages each group: quaternion mean, votes added up (paper Sec. 4.3.3).
@@ -17,7 +17,8 @@ std::vector<PoseHypothesis> cluster_poses(std::vector<PoseHypothesis> poses, con
 
 /// The rotation whose quaternion is the dominant eigenvector of the weighted sum of q q^T
 /// (Markley et al. 2007): no sign trouble, the same for any order.
-Eigen::Matrix3f mean_rotation(const std::vector<Eigen::Matrix3f>& rotations, const std::vector<float>& weights);
+Eigen::Matrix3f mean_rotation(const std::vector<Eigen::Matrix3f>& rotations,
+                              const std::vector<float>& weights);
 
 /// [rad] angle of the rotation between two rotations.
 float angle_between(const Eigen::Matrix3f& a, const Eigen::Matrix3f& b);

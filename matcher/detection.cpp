@@ -10,11 +10,11 @@
 namespace edgepose {
 namespace {
 
-constexpr int kCell = 6;                  // pixels
-constexpr float kSameThing = 0.5f;        // share of common cells above which two poses explain the same thing
+constexpr int kCell = 6;            // pixels
+constexpr float kSameThing = 0.5f;  // share of common cells above which two poses explain the same thing
 constexpr float kDifferentDistance = 0.1f;  // [d] poses farther apart than this ...
 constexpr float kDifferentAngle = 0.26f;    // ... or turned by more than 15 degrees are clearly different
-constexpr double kCorrelation = 9;        // neighbouring pixels err together: this many count as one measurement
+constexpr double kCorrelation = 9;  // neighbouring pixels err together: this many count as one measurement
 
 RigidTransform to_rigid(const PoseF& pose) {
   RigidTransform t = RigidTransform::Identity();
@@ -52,8 +52,8 @@ Eigen::Matrix<double, 6, 6> covariance(const IcpResult& icp, double diameter) {
 
 }  // namespace
 
-std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
-                                      const FreeSpaceOptions& options) {
+std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::View& model,
+                                      const PoseF& camera_T_model, const FreeSpaceOptions& options) {
   const PixelProjection projection(scene);
   const size_t view = view_of_pose(model, camera_T_model, box_centre(*model.header));
   const uint32_t cells_a_row = static_cast<uint32_t>(scene.width / kCell + 1);
@@ -88,7 +88,8 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
   std::vector<uint32_t> explained;
   for (const Candidate& c : ranked) {
     if (detections.size() >= static_cast<size_t>(options.max_instances)) break;
-    const bool accepted = options.verification != Verification::kFreeSpace || c.confidence >= options.accept_score;
+    const bool accepted =
+        options.verification != Verification::kFreeSpace || c.confidence >= options.accept_score;
     if (!detections.empty() && (!accepted || options.verification != Verification::kFreeSpace)) continue;
     const auto cells = explained_cells(scene, view, c.pose, search.settings(c.pose).full);
     if (overlap(cells, explained) > kSameThing) continue;
@@ -121,14 +122,17 @@ std::string rejection_reason(const std::vector<Candidate>& ranked, const MatchOp
   if (options.verification != Verification::kFreeSpace || best.confidence >= options.accept_score) return "";
   const auto percent = [](float share) { return std::to_string(std::lround(100 * share)) + " %"; };
   const FreeSpaceEvidence& e = best.evidence;
-  std::string reason = "the best candidate has score " + std::to_string(best.confidence).substr(0, 4) + " of the " +
-                       std::to_string(options.accept_score).substr(0, 4) + " wanted: " + percent(e.coverage()) +
-                       " of the expected surface is there";
+  std::string reason = "the best candidate has score " + std::to_string(best.confidence).substr(0, 4) +
+                       " of the " + std::to_string(options.accept_score).substr(0, 4) +
+                       " wanted: " + percent(e.coverage()) + " of the expected surface is there";
   if (e.violation_share() > 0.03f) reason += ", the scene sees through " + percent(e.violation_share());
-  if (e.expected > 0 && e.occluded / e.expected > 0.3f) reason += ", " + percent(e.occluded / e.expected) + " would be hidden";
-  if (e.expected > 0 && e.near / e.expected > 0.15f) reason += ", " + percent(e.near / e.expected) + " lies beside the surface";
+  if (e.expected > 0 && e.occluded / e.expected > 0.3f)
+    reason += ", " + percent(e.occluded / e.expected) + " would be hidden";
+  if (e.expected > 0 && e.near / e.expected > 0.15f)
+    reason += ", " + percent(e.near / e.expected) + " lies beside the surface";
   const float outline = e.outline_confirmed + e.outline_denied + e.outline_open;
-  if (outline > 0 && e.outline_denied / outline > 0.1f) reason += ", " + percent(e.outline_denied / outline) + " of its outline is contradicted";
+  if (outline > 0 && e.outline_denied / outline > 0.1f)
+    reason += ", " + percent(e.outline_denied / outline) + " of its outline is contradicted";
   return reason;
 }
 

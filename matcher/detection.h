@@ -4,8 +4,8 @@
 namespace edgepose {
 
 /// The cells of the image (6 x 6 pixels) in which the posed model explains what was measured; sorted.
-std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
-                                      const FreeSpaceOptions& options);
+std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::View& model,
+                                      const PoseF& camera_T_model, const FreeSpaceOptions& options);
 
 /// Share of `cells` that is also in `others`; both sorted.
 float overlap(const std::vector<uint32_t>& cells, const std::vector<uint32_t>& others);

@@ -8,10 +8,10 @@
 namespace edgepose {
 namespace {
 
-constexpr float kJumpPixels = 4;     // a jump is at least this many pixel sizes deep ...
-constexpr float kJumpNoise = 6;      // ... and this many times the noise
-constexpr int kGap = 3;              // pixels without measurement that a jump may hide in
-constexpr int kCreaseReach = 4;      // pixels on either side of a crease
+constexpr float kJumpPixels = 4;        // a jump is at least this many pixel sizes deep ...
+constexpr float kJumpNoise = 6;         // ... and this many times the noise
+constexpr int kGap = 3;                 // pixels without measurement that a jump may hide in
+constexpr int kCreaseReach = 4;         // pixels on either side of a crease
 constexpr float kCreaseCosine = 0.87f;  // 30 degrees between the two sides
 constexpr std::array<std::array<int, 2>, 4> kDirections = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
@@ -37,7 +37,8 @@ EdgeKind outline_kind(const Scene::Data& scene, int u, int v) {
         if (step == kGap) kind = EdgeKind::kBoundary;
         continue;
       }
-      if (neighbour > z + jump && neighbour > continued_depth(scene, u, v, nu, nv) + jump) return EdgeKind::kOccluding;
+      if (neighbour > z + jump && neighbour > continued_depth(scene, u, v, nu, nv) + jump)
+        return EdgeKind::kOccluding;
       break;
     }
   return kind;

@@ -23,15 +23,16 @@ struct Features {
     denied = std::log1p(e.outline_denied / outline / 0.05f);
     confirmed = e.outline_confirmed / outline;
     distance = std::log(e.distance_sum / e.matched / (0.01f * options.diameter) + 0.05f);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(e.normal_spread / e.matched, Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(e.normal_spread / e.matched,
+                                                                Eigen::EigenvaluesOnly);
     spread = std::log(std::max(0.f, solver.eigenvalues()[0]) + 0.01f);
   }
 };
 
 constexpr float kTooFew = 5;  // matched points
 
-constexpr float kNear = 2.5f;       // [tolerances] farther off than surface that matches, too near for an occluder
-constexpr float kInsideStep = 2;    // [pixels] from the outline to where the object must be
+constexpr float kNear = 2.5f;  // [tolerances] farther off than surface that matches, too near for an occluder
+constexpr float kInsideStep = 2;           // [pixels] from the outline to where the object must be
 constexpr float kOutlineTolerance = 2.5f;  // in units of the surface tolerance
 
 /// True if a neighbouring pixel shows the point: an outline one pixel off is no violation.
@@ -46,8 +47,8 @@ bool shown_beside(const Scene::Data& scene, int64_t pixel, float z, float tolera
 }
 
 void examine_point(const Scene::Data& scene, const PixelProjection& projection, const PoseF& pose,
-                   const OrientedPoint& point, const Eigen::Vector3f& support_normal, const FreeSpaceOptions& options,
-                   FreeSpaceEvidence& evidence) {
+                   const OrientedPoint& point, const Eigen::Vector3f& support_normal,
+                   const FreeSpaceOptions& options, FreeSpaceEvidence& evidence) {
   const Eigen::Vector3f p = pose * point.position;
   const Eigen::Vector3f normal = pose.rotation * point.normal;
   const float slant = -normal.dot(p) / p.z();  // of the normal against the ray with z = 1
@@ -63,8 +64,9 @@ void examine_point(const Scene::Data& scene, const PixelProjection& projection, 
   const float behind = z - p.z();
   const float distance = std::abs(behind) * slant;  // along the normal
   if (distance <= options.tolerance) {
-    const float cosine = scene.smooth_depth[pixel] > 0 ? (pose.rotation * support_normal).dot(scene.normals[pixel])
-                                                       : options.min_normal_cosine;
+    const float cosine = scene.smooth_depth[pixel] > 0
+                             ? (pose.rotation * support_normal).dot(scene.normals[pixel])
+                             : options.min_normal_cosine;
     if (cosine >= options.min_normal_cosine) {
       evidence.matched += 1;
       evidence.distance_sum += distance;
@@ -86,7 +88,8 @@ void examine_point(const Scene::Data& scene, const PixelProjection& projection, 
 }
 
 void examine_outline_point(const Scene::Data& scene, const PixelProjection& projection, const PoseF& pose,
-                           const ContourPoint& point, const FreeSpaceOptions& options, FreeSpaceEvidence& evidence) {
+                           const ContourPoint& point, const FreeSpaceOptions& options,
+                           FreeSpaceEvidence& evidence) {
   const Eigen::Vector3f p = pose * point.position;
   if (!(p.z() > 1e-3f)) return;
   const Eigen::Vector3f beside = p + pose.rotation * point.outwards * scene.pixel_size(p.z());
@@ -129,8 +132,8 @@ void examine_outline_point(const Scene::Data& scene, const PixelProjection& proj
 
 }  // namespace
 
-FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
-                               const FreeSpaceOptions& options) {
+FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& model,
+                               const PoseF& camera_T_model, const FreeSpaceOptions& options) {
   FreeSpaceEvidence evidence;
   const PixelProjection projection(scene);
   const size_t view = view_of_pose(model, camera_T_model, box_centre(*model.header));
@@ -147,7 +150,7 @@ FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& mode
 float rank_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
   if (e.matched < kTooFew) return kNoEvidence;
   const Features f(e, options);
-  return 6.f * f.matched + 2.4f * f.coverage - 0.6f * f.disagreeing - 1.2f * f.violated - 3.f * f.near -
+  return 8.f * f.matched + 2.4f * f.coverage - 0.6f * f.disagreeing - 1.2f * f.violated - 3.f * f.near -
          2.1f * f.distance - 2.6f * f.denied + 5.f * f.confirmed - 4.f * f.unmeasured;
 }
 
@@ -160,8 +163,9 @@ float surface_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options)
 float acceptance_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
   if (e.matched < kTooFew) return 0;
   const Features f(e, options);
-  const float logit = 9.22f + 2.04f * f.matched + 0.67f * f.coverage + 1.14f * f.disagreeing - 1.31f * f.violated -
-                      1.17f * f.near + 0.32f * f.distance - 1.21f * f.denied + 3.8f * f.confirmed + 2.06f * f.spread;
+  const float logit = 9.22f + 2.04f * f.matched + 0.67f * f.coverage + 1.14f * f.disagreeing -
+                      1.31f * f.violated - 1.17f * f.near + 0.32f * f.distance - 1.21f * f.denied +
+                      3.8f * f.confirmed + 2.06f * f.spread;
   return 1 / (1 + std::exp(-logit));
 }
 

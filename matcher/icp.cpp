@@ -35,8 +35,8 @@ class NormalEquations {
 /// Pixels from the outline point along `outwards` to where the scene falls away; empty if it does not
 /// within `reach` pixels.
 std::optional<float> jump_along(const Scene::Data& scene, const PixelProjection& projection,
-                                const Eigen::Vector2f& at, const Eigen::Vector2f& outwards, float z, float tolerance,
-                                int reach) {
+                                const Eigen::Vector2f& at, const Eigen::Vector2f& outwards, float z,
+                                float tolerance, int reach) {
   bool was_inside = false;
   int empty = 0;
   for (int step = -reach; step <= reach; ++step) {
@@ -98,9 +98,11 @@ Iteration accumulate(const Scene::Data& scene, const Model::View& model, const P
     if (!(p.z() > 1e-3f)) continue;
     const Eigen::Vector3f outwards = pose.rotation * c.outwards;
     const float pixel_size = scene.pixel_size(p.z());
-    const Eigen::Vector2f at = projection.project(p), step = projection.project(p + outwards * pixel_size) - at;
+    const Eigen::Vector2f at = projection.project(p),
+                          step = projection.project(p + outwards * pixel_size) - at;
     const int reach = std::clamp(static_cast<int>(max_distance / pixel_size), 2, 10);
-    const auto jump = jump_along(scene, projection, at, step, p.z(), std::max(2 * max_distance, 4 * pixel_size), reach);
+    const auto jump =
+        jump_along(scene, projection, at, step, p.z(), std::max(2 * max_distance, 4 * pixel_size), reach);
     if (!jump) continue;
     const float sigma = options.outline_sigma_pixels * pixel_size;
     const float r = *jump / static_cast<float>(reach + 1);
@@ -129,8 +131,10 @@ IcpResult refine_pose(const Scene::Data& scene, const Model::View& model, const 
   const Eigen::Vector3f model_centre = box_centre(*model.header);
   const double radius = model.header->diameter / 4;
   for (int i = 0; i < options.iterations; ++i) {
-    const float progress = options.iterations > 1 ? static_cast<float>(i) / static_cast<float>(options.iterations - 1) : 1;
-    const float max_distance = options.max_distance + progress * (options.min_distance - options.max_distance);
+    const float progress =
+        options.iterations > 1 ? static_cast<float>(i) / static_cast<float>(options.iterations - 1) : 1;
+    const float max_distance =
+        options.max_distance + progress * (options.min_distance - options.max_distance);
     const size_t view = view_of_pose(model, result.camera_T_model, model_centre);
     const Eigen::Vector3f centre = result.camera_T_model * model_centre;
     const Iteration it = accumulate(scene, model, result.camera_T_model, view, centre, max_distance, options);

@@ -4,19 +4,20 @@
 namespace edgepose {
 
 struct IcpOptions {
-  size_t max_points = 400;     ///< dense points used; time is proportional
+  size_t max_points = 400;  ///< dense points used; time is proportional
   int iterations = 8;
-  float max_distance = 0.01f;  ///< [m] correspondences farther apart are left out at first ...
-  float min_distance = 0.003f; ///< [m] ... and at the end
+  float max_distance = 0.01f;   ///< [m] correspondences farther apart are left out at first ...
+  float min_distance = 0.003f;  ///< [m] ... and at the end
   float min_normal_cosine = 0.5f;
-  bool outline = true;         ///< pull the outline to the scene's depth jumps
-  float surface_sigma = 0.001f;  ///< [m] standard deviation of a surface correspondence
+  bool outline = true;             ///< pull the outline to the scene's depth jumps
+  float surface_sigma = 0.001f;    ///< [m] standard deviation of a surface correspondence
   float outline_sigma_pixels = 1;  ///< [pixels] of an outline correspondence
 };
 
 struct IcpResult {
   PoseF camera_T_model;
-  /// Sum of J^T J / sigma^2 at the end, for a twist (rotation, translation) about the model's centre, camera axes.
+  /// Sum of J^T J / sigma^2 at the end, for a twist (rotation, translation) about the model's centre, camera
+  /// axes.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   int correspondences = 0;
   float rms = 0;  ///< [m] of the surface correspondences along the normals

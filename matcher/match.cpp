@@ -13,14 +13,11 @@
 #include "matcher/scene_sampling.h"
 #include "matcher/stopwatch.h"
 
-#ifdef EDGEPOSE_LAB
-#include <functional>
-std::function<void(const edgepose::PoseF&, const edgepose::FreeSpaceEvidence&, float, float)> lab_hook;
-#endif
 namespace edgepose {
 namespace {
 
-constexpr size_t kMinReferences = 450, kMaxReferences = 900;  // few suffice in a large scene, a small one needs more than its share
+constexpr size_t kMinReferences = 450,
+                 kMaxReferences = 900;  // few suffice in a large scene, a small one needs more than its share
 
 /// A seeded random subset, so that every prefix is spread over the scene.
 std::vector<uint32_t> pick_references(const std::vector<OrientedPoint>& points, float share, uint64_t seed) {
@@ -34,7 +31,8 @@ std::vector<uint32_t> pick_references(const std::vector<OrientedPoint>& points, 
 }
 
 /// The scene's points for this model (paper Fig. 4), without the planes that are too large to be on it.
-std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& model, const MatchOptions& options) {
+std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& model,
+                                        const MatchOptions& options) {
   const float d = static_cast<float>(model.diameter());
   SamplingOptions sampling;
   sampling.step = static_cast<float>(model.view().header->sampling_step);
@@ -42,16 +40,19 @@ std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& m
   sampling.max_pixel_size = d / 32;
   sampling.max_noise = 0.012f * d;
   std::vector<OrientedPoint> points;
-  for (const SampledPoint& p : drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads))
+  for (const SampledPoint& p :
+       drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads))
     points.push_back(p.surface);
   return points;
 }
 
-/// The paper's way: all references vote at once, one pose is chosen by edges (or by surface overlap) and refined.
+/// The paper's way: all references vote at once, one pose is chosen by edges (or by surface overlap) and
+/// refined.
 std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Model& model,
                                              const std::vector<OrientedPoint>& points,
-                                             const std::vector<uint32_t>& references, const CandidateSearch& search,
-                                             const MatchOptions& options, MatchResult& result) {
+                                             const std::vector<uint32_t>& references,
+                                             const CandidateSearch& search, const MatchOptions& options,
+                                             MatchResult& result) {
   Stopwatch watch;
   VotingOptions voting;
   voting.threads = options.threads;
@@ -64,14 +65,16 @@ std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Mod
 
   std::vector<PoseF> poses;
   std::vector<float> votes;
-  for (const PoseHypothesis& c : clusters) poses.push_back({c.rotation, c.translation}), votes.push_back(c.votes);
+  for (const PoseHypothesis& c : clusters)
+    poses.push_back({c.rotation, c.translation}), votes.push_back(c.votes);
   const float d = static_cast<float>(model.diameter());
   size_t chosen = 0;
   if (options.verification == Verification::kPaper) {
     const SceneEdges edges(scene, 0.01f * d, d / 32);
     chosen = verify_like_the_paper(edges, model.view(), poses, votes, options.paper, options.threads);
   } else {
-    const size_t looked_at = std::min<size_t>(poses.size(), 2 * static_cast<size_t>(options.paper.candidates));
+    const size_t looked_at =
+        std::min<size_t>(poses.size(), 2 * static_cast<size_t>(options.paper.candidates));
     std::vector<float> overlaps;
     for (size_t i = 0; i < looked_at; ++i)
       overlaps.push_back(surface_overlap(scene, model.view(), poses[i], options.paper.edge_distance * d));
@@ -86,7 +89,8 @@ std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Mod
 }  // namespace
 
 std::string MatchOptions::check() const {
-  if (!(reference_share > 0 && reference_share <= 1)) return "reference_share: expected above 0 and at most 1";
+  if (!(reference_share > 0 && reference_share <= 1))
+    return "reference_share: expected above 0 and at most 1";
   if (max_instances < 1 || max_instances > 100) return "max_instances: expected 1 to 100";
   if (!(accept_score >= 0 && accept_score <= 1)) return "accept_score: expected 0 to 1";
   if (paper.candidates < 1 || paper.candidates > 1000) return "paper.candidates: expected 1 to 1000";
@@ -106,13 +110,10 @@ MatchResult match(const Scene& scene_handle, const Model& model, const MatchOpti
   result.times.sampling = watch.lap();
 
   const CandidateSearch search(scene, model, points, options);
-  const auto candidates = options.verification == Verification::kFreeSpace
-                              ? search.run(references, result)
-                              : choose_like_the_paper(scene, model, points, references, search, options, result);
-#ifdef EDGEPOSE_LAB
-  if (lab_hook)
-    for (auto& c : candidates) lab_hook(c.pose, c.evidence, c.score, c.icp.rms);
-#endif
+  const auto candidates =
+      options.verification == Verification::kFreeSpace
+          ? search.run(references, result)
+          : choose_like_the_paper(scene, model, points, references, search, options, result);
   watch.lap();
   result.detections = report_detections(scene, model, candidates, search, options);
   result.reason = rejection_reason(candidates, options);
@@ -135,7 +136,8 @@ void resolve_conflicts(const Scene& scene_handle, const std::vector<const Model*
     for (size_t i = 0; i < results[m].detections.size(); ++i) {
       const Detection& detection = results[m].detections[i];
       if (!detection.accepted) continue;
-      const PoseF pose{detection.camera_T_model.linear().cast<float>(), detection.camera_T_model.translation().cast<float>()};
+      const PoseF pose{detection.camera_T_model.linear().cast<float>(),
+                       detection.camera_T_model.translation().cast<float>()};
       claims.push_back({m, i, explained_cells(scene, models[m]->view(), pose, search.settings(pose).full)});
     }
   }

@@ -10,15 +10,15 @@ namespace edgepose {
 
 /// How the final pose is chosen among the candidates.
 enum class Verification {
-  kFreeSpace,       ///< ours: matches against free-space violations and edges, knows occlusion; can say "not here"
-  kPaper,           ///< the paper's edge score S with two classes and early exit (Sec. 4.3.4); always gives a pose
+  kFreeSpace,  ///< ours: matches against free-space violations and edges, knows occlusion; can say "not here"
+  kPaper,      ///< the paper's edge score S with two classes and early exit (Sec. 4.3.4); always gives a pose
   kSurfaceOverlap,  ///< share of model points near the scene (Papazov and Burschka), the paper's baseline
 };
 
 /// The paper's verification, Eq. 2 and the steps below it.
 struct PaperOptions {
-  int candidates = 9;           ///< N: poses of each class that get the detailed score
-  float roi_scale = 1.4f;       ///< s: size of the region of interest relative to the candidate's bounding box
+  int candidates = 9;      ///< N: poses of each class that get the detailed score
+  float roi_scale = 1.4f;  ///< s: size of the region of interest relative to the candidate's bounding box
   float accept_at_once = 0.7f;  ///< S above which the search ends
   float accept_best = 0.6f;     ///< S above which the best of a class is taken
   float edge_distance = 0.02f;  ///< [d] a scene edge point this close to the posed model matches
@@ -29,13 +29,15 @@ struct PaperOptions {
 struct MatchOptions {
   Verification verification = Verification::kFreeSpace;
   PaperOptions paper;
-  bool edge_sampling = true;     ///< keep edge and high-curvature points (paper Fig. 4); false = plain normal clusters
-  float reference_share = 0.2f;  ///< share of the scene points used as reference points (paper: 1/5); time grows with it
-  int max_instances = 1;         ///< how many instances of the model to look for
-  float accept_score = 0.5f;     ///< [0, 1] detections with a lower score are reported as not accepted
-  bool refine = true;            ///< ICP
+  bool edge_sampling =
+      true;  ///< keep edge and high-curvature points (paper Fig. 4); false = plain normal clusters
+  float reference_share =
+      0.2f;  ///< share of the scene points used as reference points (paper: 1/5); time grows with it
+  int max_instances = 1;      ///< how many instances of the model to look for
+  float accept_score = 0.5f;  ///< [0, 1] detections with a lower score are reported as not accepted
+  bool refine = true;         ///< ICP
   uint64_t seed = 1;
-  int threads = 0;               ///< 0 = all cores; the result does not depend on it
+  int threads = 0;  ///< 0 = all cores; the result does not depend on it
 
   std::string check() const;
 };
@@ -48,7 +50,7 @@ struct StageTimes {
 
 struct Detection {
   RigidTransform camera_T_model = RigidTransform::Identity();
-  double score = 0;      ///< [0, 1] how sure; accepted if >= MatchOptions::accept_score
+  double score = 0;  ///< [0, 1] how sure; accepted if >= MatchOptions::accept_score
   bool accepted = false;
   double edge_score = 0;  ///< S of the paper's Eq. 2
   double coverage = 0;    ///< [0, 1] share of the surface expected from this view that the scene shows
@@ -75,6 +77,7 @@ MatchResult match(const Scene& scene, const Model& model, const MatchOptions& op
 /// After several models were looked for in one scene (results[i] belongs to models[i]): where two detections
 /// explain the same part of the image, only the one that explains more stays accepted. Changes `accepted` and
 /// `reason` only.
-void resolve_conflicts(const Scene& scene, const std::vector<const Model*>& models, std::vector<MatchResult>& results);
+void resolve_conflicts(const Scene& scene, const std::vector<const Model*>& models,
+                       std::vector<MatchResult>& results);
 
 }  // namespace edgepose

@@ -14,16 +14,18 @@ namespace edgepose {
 
 /// How a model is trained. Every length is relative to the model's diameter d, so one set serves all objects.
 struct TrainOptions {
-  float sampling_step = 0.05f;     ///< [d] distance between sampled surface points. Table size grows with its -4th power.
-  float distance_step = 0.05f;     ///< [d] quantisation of the pair distance (paper: 0.02)
-  float angle_step_deg = 12.0f;    ///< [degrees] quantisation of the three angles (paper: 5)
-  float min_normal_angle_deg = 5;  ///< [degrees] pairs whose normals differ by less are left out (Sec. 4.2); 0 keeps all
-  float max_normal_angle_deg = 175;///< [degrees] ... or by more; 180 keeps all
-  bool visibility_filter = true;   ///< drop surface that no outside view sees (insides of CT meshes)
-  int views = 240;                 ///< view directions for visibility and contours; time and file size grow with it
-  bool find_symmetries = true;     ///< match the model against itself
-  uint64_t seed = 1;               ///< of the surface sampling
-  int threads = 0;                 ///< 0 = all cores; the result does not depend on it
+  float sampling_step =
+      0.05f;  ///< [d] distance between sampled surface points. Table size grows with its -4th power.
+  float distance_step = 0.05f;   ///< [d] quantisation of the pair distance (paper: 0.02)
+  float angle_step_deg = 12.0f;  ///< [degrees] quantisation of the three angles (paper: 5)
+  float min_normal_angle_deg =
+      5;  ///< [degrees] pairs whose normals differ by less are left out (Sec. 4.2); 0 keeps all
+  float max_normal_angle_deg = 175;  ///< [degrees] ... or by more; 180 keeps all
+  bool visibility_filter = true;     ///< drop surface that no outside view sees (insides of CT meshes)
+  int views = 240;  ///< view directions for visibility and contours; time and file size grow with it
+  bool find_symmetries = true;  ///< match the model against itself
+  uint64_t seed = 1;            ///< of the surface sampling
+  int threads = 0;              ///< 0 = all cores; the result does not depend on it
 
   /// Empty if sound, else one line that names the bad field.
   std::string check() const;
@@ -55,10 +57,10 @@ class Model {
   std::span<const std::byte> block() const { return block_; }
   const View& view() const { return *view_; }
 
-  double diameter() const;               ///< [m] largest distance between two surface points
-  size_t point_count() const;            ///< sampled points with a normal
-  size_t pair_count() const;             ///< point pairs in the hash table
-  Eigen::Vector3d centre() const;        ///< [m] centre of the bounding box, model frame
+  double diameter() const;         ///< [m] largest distance between two surface points
+  size_t point_count() const;      ///< sampled points with a normal
+  size_t pair_count() const;       ///< point pairs in the hash table
+  Eigen::Vector3d centre() const;  ///< [m] centre of the bounding box, model frame
   Symmetries symmetries() const;
   std::string name() const;
 

@@ -45,7 +45,8 @@ void require_ascending(std::span<const T> offsets, size_t expected_size, size_t 
 
 bool sound(std::span<const OrientedPoint> points, double limit) {
   for (const auto& p : points)
-    if (!(p.position.squaredNorm() <= limit * limit) || !(std::abs(p.normal.squaredNorm() - 1) < 0.01f)) return false;
+    if (!(p.position.squaredNorm() <= limit * limit) || !(std::abs(p.normal.squaredNorm() - 1) < 0.01f))
+      return false;
   return true;
 }
 
@@ -54,7 +55,8 @@ void check_header(const ModelHeader& h, size_t size) {
   if (h.version != kModelVersion)
     refuse("model file version " + std::to_string(kModelVersion),
            "version " + std::to_string(h.version) + "; train the model again with this edgepose");
-  if (h.size != size) refuse(std::to_string(h.size) + " bytes, as the header says", std::to_string(size) + " (cut short?)");
+  if (h.size != size)
+    refuse(std::to_string(h.size) + " bytes, as the header says", std::to_string(size) + " (cut short?)");
 }
 
 void check_values(const ModelHeader& h) {
@@ -73,7 +75,8 @@ void check_values(const ModelHeader& h) {
 void check_contents(const Model::View& v) {
   const ModelHeader& h = *v.header;
   const size_t buckets = static_cast<size_t>(h.distance_bins) * h.angle_bins * h.angle_bins * h.angle_bins;
-  if (v.points.empty() || v.points.size() > 65535) refuse("1 to 65535 points", std::to_string(v.points.size()));
+  if (v.points.empty() || v.points.size() > 65535)
+    refuse("1 to 65535 points", std::to_string(v.points.size()));
   if (v.dense_points.empty() || v.view_directions.empty()) refuse("dense points and views", "none");
   require_ascending(v.offsets, buckets + 1, v.entries.size(), "bucket offsets");
   require_ascending(v.contour_offsets, v.view_directions.size() + 1, v.contours.size(), "contour offsets");
@@ -81,19 +84,24 @@ void check_contents(const Model::View& v) {
     refuse("a visibility bit for each dense point and view", "another number");
   for (const auto& e : v.entries)
     if (e.reference >= v.points.size()) refuse("pairs of known points", "a point index out of range");
-  if (!sound(v.points, 1e4) || !sound(v.dense_points, 1e4)) refuse("finite points with unit normals", "others");
-  if (v.support_normals.size() != v.dense_points.size()) refuse("a support normal for each dense point", "another number");
+  if (!sound(v.points, 1e4) || !sound(v.dense_points, 1e4))
+    refuse("finite points with unit normals", "others");
+  if (v.support_normals.size() != v.dense_points.size())
+    refuse("a support normal for each dense point", "another number");
   for (const auto& n : v.support_normals)
     if (!(std::abs(n.squaredNorm() - 1) < 0.01f)) refuse("unit support normals", "others");
-  if (v.discrete.size() % 16 != 0 || v.continuous.size() % 6 != 0) refuse("whole symmetries", "a part of one");
+  if (v.discrete.size() % 16 != 0 || v.continuous.size() % 6 != 0)
+    refuse("whole symmetries", "a part of one");
 }
 
 }  // namespace
 
 Model Model::from_block(std::span<const std::byte> block, std::shared_ptr<const void> owner) {
   if (block.size() < sizeof(ModelHeader))
-    refuse("at least " + std::to_string(sizeof(ModelHeader)) + " bytes of a trained model", std::to_string(block.size()));
-  if (reinterpret_cast<uintptr_t>(block.data()) % alignof(ModelHeader) != 0) refuse("an aligned block", "another");
+    refuse("at least " + std::to_string(sizeof(ModelHeader)) + " bytes of a trained model",
+           std::to_string(block.size()));
+  if (reinterpret_cast<uintptr_t>(block.data()) % alignof(ModelHeader) != 0)
+    refuse("an aligned block", "another");
   auto view = std::make_shared<View>();
   const auto* header = reinterpret_cast<const ModelHeader*>(block.data());
   check_header(*header, block.size());
@@ -125,8 +133,8 @@ Model Model::from_block(std::span<const std::byte> block, std::shared_ptr<const 
 }
 
 Model make_model(const ModelParts& parts) {
-  const auto block = std::make_shared<std::vector<std::byte>>(
-      (sizeof(ModelHeader) + kAlignment - 1) / kAlignment * kAlignment);
+  const auto block = std::make_shared<std::vector<std::byte>>((sizeof(ModelHeader) + kAlignment - 1) /
+                                                              kAlignment * kAlignment);
   ModelHeader header = parts.header;
   const auto append = [&](Section which, const auto& values) {
     using T = typename std::decay_t<decltype(values)>::value_type;
@@ -185,8 +193,8 @@ Symmetries Model::symmetries() const {
     symmetries.discrete.push_back(t);
   }
   for (size_t i = 0; i < view_->continuous.size(); i += 6)
-    symmetries.continuous.push_back({Eigen::Vector3d(view_->continuous.data() + i),
-                                     Eigen::Vector3d(view_->continuous.data() + i + 3)});
+    symmetries.continuous.push_back(
+        {Eigen::Vector3d(view_->continuous.data() + i), Eigen::Vector3d(view_->continuous.data() + i + 3)});
   return symmetries;
 }
 

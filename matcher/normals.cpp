@@ -9,15 +9,24 @@ namespace edgepose {
 namespace {
 
 constexpr std::array<int, 6> kOffsets = {-5, -3, -1, 1, 3, 5};  // pixels
-constexpr float kMaxSlope = 3.f;   // depth change over lateral distance that still is one surface (72 degrees)
-constexpr int kMinNeighbours = 12; // of 36
+constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that still is one surface (72 degrees)
+constexpr int kMinNeighbours = 12;  // of 36
 constexpr int kRowsPerJob = 8;
 
 /// Sums of the least-squares fit w = a du + b dv + c for a whole row; structure of arrays, so that the
 /// compiler vectorises the inner loop.
 struct RowSums {
   explicit RowSums(size_t width)
-      : n(width), x(width), y(width), xx(width), xy(width), yy(width), w(width), xw(width), yw(width), ww(width) {}
+      : n(width),
+        x(width),
+        y(width),
+        xx(width),
+        xy(width),
+        yy(width),
+        w(width),
+        xw(width),
+        yw(width),
+        ww(width) {}
   void clear() {
     for (auto* sum : {&n, &x, &y, &xx, &xy, &yy, &w, &xw, &yw, &ww}) std::fill(sum->begin(), sum->end(), 0.f);
   }
@@ -26,16 +35,17 @@ struct RowSums {
 
 /// Adds the neighbours (u + du, v + dv) of all pixels of row v that lie on the same surface. In inverse
 /// depth a plane is linear in the pixel coordinates, whatever its slope.
-void add_neighbours(const Scene::Data& scene, const std::vector<float>& inverse, const std::vector<float>& tolerance,
-                    int v, int du, int dv, RowSums& sums) {
+void add_neighbours(const Scene::Data& scene, const std::vector<float>& inverse,
+                    const std::vector<float>& tolerance, int v, int du, int dv, RowSums& sums) {
   const int first = std::max(0, -du), last = std::min(scene.width, scene.width - du);
   const float* centre = inverse.data() + static_cast<size_t>(v) * scene.width;
   const float* allowed = tolerance.data() + static_cast<size_t>(v) * scene.width;
   const float* other = inverse.data() + static_cast<size_t>(v + dv) * scene.width + du;
   const float dx = static_cast<float>(du), dy = static_cast<float>(dv);
   const float reach = std::sqrt(dx * dx + dy * dy) + 2.f;  // the two pixels more absorb noise
-  float *n = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(), *xy = sums.xy.data(),
-        *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(), *yw = sums.yw.data(), *ww = sums.ww.data();
+  float *n = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
+        *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
+        *yw = sums.yw.data(), *ww = sums.ww.data();
   for (int u = first; u < last; ++u) {
     const float difference = other[u] - centre[u];  // relative to the centre: keeps single precision accurate
     const bool same = std::abs(difference) < allowed[u] * reach && other[u] > 0.f;
@@ -55,7 +65,8 @@ float fit_plane(Scene::Data& scene, const RowSums& s, float inverse, int u, int 
   const float cxx = s.xx[u] - n * mx * mx, cxy = s.xy[u] - n * mx * my, cyy = s.yy[u] - n * my * my;
   const float cxw = s.xw[u] - n * mx * mw, cyw = s.yw[u] - n * my * mw;
   const float determinant = cxx * cyy - cxy * cxy;
-  if (determinant < 0.02f * (cxx + cyy) * (cxx + cyy) || determinant <= 0) return -1;  // nearly a line of pixels
+  if (determinant < 0.02f * (cxx + cyy) * (cxx + cyy) || determinant <= 0)
+    return -1;  // nearly a line of pixels
   const float a = (cxw * cyy - cyw * cxy) / determinant, b = (cyw * cxx - cxw * cxy) / determinant;
   const float fitted = inverse + mw - a * mx - b * my;  // inverse depth of the plane at the pixel
   if (!(fitted > 0.2f * inverse)) return -1;

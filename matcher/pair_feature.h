@@ -21,8 +21,9 @@ inline float fast_atan2_turns(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
   const float high = std::max(ax, ay), low = std::min(ax, ay);
   const float q = high > 0 ? low / high : 0.f, s = q * q;
-  float r = q * (0.15915131f + s * (-0.05293868f + s * (0.03080340f + s * (-0.01853087f +
-                    s * (0.00838004f - s * 0.00186549f)))));
+  float r =
+      q * (0.15915131f +
+           s * (-0.05293868f + s * (0.03080340f + s * (-0.01853087f + s * (0.00838004f - s * 0.00186549f)))));
   if (ay > ax) r = 0.25f - r;
   if (x < 0) r = 0.5f - r;
   return y < 0 ? -r : r;
@@ -30,10 +31,10 @@ inline float fast_atan2_turns(float y, float x) {
 
 /// The point pair feature of the paper's Eq. 1, d = p_r - p_s, in units of the table's steps, unquantised.
 struct PairFeature {
-  float distance;        ///< |d| in distance steps
-  float angle_reference; ///< angle(n_r, d) in angle steps
-  float angle_second;    ///< angle(n_s, d) in angle steps
-  float angle_normals;   ///< angle(n_r, n_s) in angle steps
+  float distance;         ///< |d| in distance steps
+  float angle_reference;  ///< angle(n_r, d) in angle steps
+  float angle_second;     ///< angle(n_s, d) in angle steps
+  float angle_normals;    ///< angle(n_r, n_s) in angle steps
 };
 
 /// How features are cut into buckets; model and scene must use the same.

@@ -22,7 +22,8 @@ std::vector<Pair> pairs_of(uint32_t reference, const std::vector<OrientedPoint>&
   const ReferenceFrame frame(points[reference]);
   for (uint32_t second = 0; second < points.size(); ++second) {
     const float distance = (points[reference].position - points[second].position).norm();
-    if (second == reference || distance <= 0 || !share_a_view(filter.seen_from[reference], filter.seen_from[second]))
+    if (second == reference || distance <= 0 ||
+        !share_a_view(filter.seen_from[reference], filter.seen_from[second]))
       continue;
     const PairFeature f = quantiser.feature(points[reference], points[second], distance);
     const uint32_t normals = quantiser.angle_bin(f.angle_normals);
@@ -40,9 +41,8 @@ std::vector<Pair> pairs_of(uint32_t reference, const std::vector<OrientedPoint>&
 PairTable build_pair_table(const std::vector<OrientedPoint>& points, const FeatureQuantiser& quantiser,
                            const PairFilter& filter, int threads) {
   std::vector<std::vector<Pair>> pairs(points.size());
-  parallel_for(points.size(), threads, [&](size_t i) {
-    pairs[i] = pairs_of(static_cast<uint32_t>(i), points, quantiser, filter);
-  });
+  parallel_for(points.size(), threads,
+               [&](size_t i) { pairs[i] = pairs_of(static_cast<uint32_t>(i), points, quantiser, filter); });
 
   PairTable table;  // counting sort: stable, so the order does not depend on the threads
   table.offsets.assign(quantiser.bucket_count() + 1, 0);

@@ -14,9 +14,9 @@ struct PairTable {
 
 /// Which pairs are stored.
 struct PairFilter {
-  uint32_t normal_bin_first, normal_bin_last;      ///< buckets of the angle between the normals that are kept
-  std::vector<std::vector<uint64_t>> seen_from;    ///< for each point the set of views; pairs without a common view
-                                                   ///< can never be measured together and are left out
+  uint32_t normal_bin_first, normal_bin_last;    ///< buckets of the angle between the normals that are kept
+  std::vector<std::vector<uint64_t>> seen_from;  ///< for each point the set of views; pairs without a common
+                                                 ///< view can never be measured together and are left out
 };
 
 PairTable build_pair_table(const std::vector<OrientedPoint>& points, const FeatureQuantiser& quantiser,

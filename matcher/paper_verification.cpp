@@ -10,8 +10,9 @@
 namespace edgepose {
 namespace {
 
-constexpr float kClusterLink = 0.05f;   // [d] edge points closer than this belong to one cluster
-constexpr float kClusterReach = 0.6f;   // [d] clusters whose centre is farther from the pose's centre are clutter
+constexpr float kClusterLink = 0.05f;  // [d] edge points closer than this belong to one cluster
+constexpr float kClusterReach =
+    0.6f;  // [d] clusters whose centre is farther from the pose's centre are clutter
 
 /// Single-linkage clusters: for each point the number of its cluster.
 std::vector<uint32_t> link_clusters(const std::vector<Eigen::Vector3f>& points, float link) {
@@ -37,9 +38,10 @@ std::vector<uint32_t> link_clusters(const std::vector<Eigen::Vector3f>& points, 
   return cluster;
 }
 
-/// The edge points inside the pose's axis-aligned box times `scale`, without far clusters (Fig. 5, red and blue).
-std::vector<Eigen::Vector3f> edges_in_roi(const SceneEdges& edges, const Model::View& model, const PoseF& pose,
-                                          float scale) {
+/// The edge points inside the pose's axis-aligned box times `scale`, without far clusters (Fig. 5, red and
+/// blue).
+std::vector<Eigen::Vector3f> edges_in_roi(const SceneEdges& edges, const Model::View& model,
+                                          const PoseF& pose, float scale) {
   const ModelHeader& h = *model.header;
   Eigen::AlignedBox3f box;
   for (int corner = 0; corner < 8; ++corner) {
@@ -71,7 +73,8 @@ std::vector<Eigen::Vector3f> edges_in_roi(const SceneEdges& edges, const Model::
 
 }  // namespace
 
-NearModel::NearModel(const Model::View& model, float distance) : model_(model), distance_(distance), grid_(distance) {
+NearModel::NearModel(const Model::View& model, float distance)
+    : model_(model), distance_(distance), grid_(distance) {
   for (uint32_t i = 0; i < model.dense_points.size(); ++i) grid_.add(model.dense_points[i].position, i);
 }
 
@@ -117,7 +120,8 @@ float edge_score(const SceneEdges& edges, const Model::View& model, const NearMo
   return matching / static_cast<float>(roi.size());
 }
 
-float surface_overlap(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model, float distance) {
+float surface_overlap(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
+                      float distance) {
   const PixelProjection projection(scene);
   float near = 0;
   for (const OrientedPoint& m : model.points) {
@@ -128,21 +132,21 @@ float surface_overlap(const Scene::Data& scene, const Model::View& model, const 
   return near / static_cast<float>(model.points.size());
 }
 
-size_t verify_like_the_paper(const SceneEdges& edges, const Model::View& model, const std::vector<PoseF>& poses,
-                             const std::vector<float>& votes, const PaperOptions& options, int threads,
-                             size_t* detailed) {
+size_t verify_like_the_paper(const SceneEdges& edges, const Model::View& model,
+                             const std::vector<PoseF>& poses, const std::vector<float>& votes,
+                             const PaperOptions& options, int threads, size_t* detailed) {
   const NearModel near_model(model, options.edge_distance * static_cast<float>(model.header->diameter));
   size_t looked_at = 0, best = 0;
   float best_score = -1;
   // One class after the other; in each, the N poses that most edges support get the score of Eq. 2.
   const auto verify_class = [&](size_t first, size_t last) {
     std::vector<float> support(last - first);
-    parallel_for(last - first, threads, [&](size_t i) {
-      support[i] = matching_edges(edges, model, near_model, poses[first + i]);
-    });
+    parallel_for(last - first, threads,
+                 [&](size_t i) { support[i] = matching_edges(edges, model, near_model, poses[first + i]); });
     std::vector<size_t> order(last - first);
     std::iota(order.begin(), order.end(), first);
-    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return support[a - first] > support[b - first]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return support[a - first] > support[b - first]; });
     const size_t wanted = static_cast<size_t>(options.candidates) * (options.two_classes ? 1 : 2);
     order.resize(std::min(order.size(), wanted));
     for (size_t i : order) {
@@ -155,7 +159,8 @@ size_t verify_like_the_paper(const SceneEdges& edges, const Model::View& model, 
   };
   size_t second_class = poses.size();
   if (options.two_classes && !votes.empty())
-    second_class = static_cast<size_t>(std::find_if(votes.begin(), votes.end(), [&](float v) { return v < votes[0] / 2; }) - votes.begin());
+    second_class = static_cast<size_t>(
+        std::find_if(votes.begin(), votes.end(), [&](float v) { return v < votes[0] / 2; }) - votes.begin());
   if (!verify_class(0, second_class) && second_class < poses.size()) verify_class(second_class, poses.size());
   if (detailed) *detailed = looked_at;
   return best;

@@ -39,13 +39,14 @@ float edge_score(const SceneEdges& edges, const Model::View& model, const NearMo
                  const PoseF& camera_T_model, const PaperOptions& options);
 
 /// Share of the model's points that lie near the scene (Papazov and Burschka 2010).
-float surface_overlap(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model, float distance);
+float surface_overlap(const Scene::Data& scene, const Model::View& model, const PoseF& camera_T_model,
+                      float distance);
 
 /// Index of the pose that the paper's verification chooses among `poses` (sorted by votes, strongest first):
 /// two classes by V_max / 2, N of each looked at in detail, early exit at 0.7 and 0.6 (Sec. 4.3.4).
 /// `detailed`: how many poses were scored with Eq. 2.
-size_t verify_like_the_paper(const SceneEdges& edges, const Model::View& model, const std::vector<PoseF>& poses,
-                             const std::vector<float>& votes, const PaperOptions& options, int threads,
-                             size_t* detailed = nullptr);
+size_t verify_like_the_paper(const SceneEdges& edges, const Model::View& model,
+                             const std::vector<PoseF>& poses, const std::vector<float>& votes,
+                             const PaperOptions& options, int threads, size_t* detailed = nullptr);
 
 }  // namespace edgepose

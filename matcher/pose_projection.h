@@ -17,7 +17,8 @@ struct PoseF {
 };
 
 /// The stored view from which the camera sees the model in this pose.
-inline size_t view_of_pose(const Model::View& model, const PoseF& camera_T_model, const Eigen::Vector3f& centre) {
+inline size_t view_of_pose(const Model::View& model, const PoseF& camera_T_model,
+                           const Eigen::Vector3f& centre) {
   const Eigen::Vector3f camera = -(camera_T_model.rotation.transpose() * camera_T_model.translation);
   return model.nearest_view((camera - centre).normalized());
 }
@@ -29,8 +30,11 @@ inline Eigen::Vector3f box_centre(const ModelHeader& h) {
 /// Pinhole projection, rounded to the pixel.
 struct PixelProjection {
   explicit PixelProjection(const Scene::Data& scene)
-      : fx(static_cast<float>(scene.camera.fx)), fy(static_cast<float>(scene.camera.fy)),
-        cx(static_cast<float>(scene.camera.cx)), cy(static_cast<float>(scene.camera.cy)), width(scene.width),
+      : fx(static_cast<float>(scene.camera.fx)),
+        fy(static_cast<float>(scene.camera.fy)),
+        cx(static_cast<float>(scene.camera.cx)),
+        cy(static_cast<float>(scene.camera.cy)),
+        width(scene.width),
         height(scene.height) {}
 
   /// Index of the pixel that `p` (camera frame) falls on, or -1 outside of the image.

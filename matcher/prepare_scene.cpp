@@ -46,7 +46,9 @@ Scene prepare_scene(const DepthImage& image, const Camera& camera, const SceneOp
     if (!(z >= options.min_depth && z <= options.max_depth)) z = 0;  // NaN too
     measured += z > 0;
   }
-  if (measured == 0) throw std::invalid_argument("depth image: expected measurements between min_depth and max_depth, found none");
+  if (measured == 0)
+    throw std::invalid_argument(
+        "depth image: expected measurements between min_depth and max_depth, found none");
 
   estimate_normals(*scene, options.threads);
   detect_edges(*scene, options.threads);

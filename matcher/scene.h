@@ -39,8 +39,8 @@ struct ProjectedCloud {
   Camera camera;
   RigidTransform cloud_T_camera;
 };
-/// `points` in metres. The optical axis points to the median of the cloud; the resolution follows from its density.
-/// Throws std::invalid_argument if fewer than 100 finite points remain.
+/// `points` in metres. The optical axis points to the median of the cloud; the resolution follows from its
+/// density. Throws std::invalid_argument if fewer than 100 finite points remain.
 ProjectedCloud project_cloud(const std::vector<Eigen::Vector3f>& points,
                              const Eigen::Vector3f& viewpoint = Eigen::Vector3f::Zero());
 

@@ -18,8 +18,9 @@ enum class EdgeKind : uint8_t { kNone = 0, kOccluding = 1, kBoundary = 2, kCreas
 /// Typical residual of the plane fits over depth: most sensors measure worse the farther they look.
 struct NoiseCurve {
   static constexpr int kBins = 20;
-  static constexpr float kNearest = 0.05f;  ///< [m] start of the first bin; each bin spans a factor of sqrt(2)
-  std::array<float, kBins> sigma{};         ///< [m]
+  static constexpr float kNearest =
+      0.05f;                         ///< [m] start of the first bin; each bin spans a factor of sqrt(2)
+  std::array<float, kBins> sigma{};  ///< [m]
 
   static int bin(float z) {
     return std::clamp(static_cast<int>(2 * std::log2(std::max(z, kNearest) / kNearest)), 0, kBins - 1);
@@ -31,12 +32,12 @@ struct NoiseCurve {
 struct Scene::Data {
   int width = 0, height = 0;
   Camera camera;
-  std::vector<float> depth;               ///< [m] as measured, 0 where nothing was
-  std::vector<float> smooth_depth;        ///< [m] of the fitted plane; 0 where there is no normal
-  std::vector<Eigen::Vector3f> normals;   ///< unit, towards the camera; zero where too few neighbours agree
+  std::vector<float> depth;              ///< [m] as measured, 0 where nothing was
+  std::vector<float> smooth_depth;       ///< [m] of the fitted plane; 0 where there is no normal
+  std::vector<Eigen::Vector3f> normals;  ///< unit, towards the camera; zero where too few neighbours agree
   std::vector<EdgeKind> edges;
-  NoiseCurve noise;                       ///< sensor noise and quantisation, read off the plane fits
-  double seconds = 0;                     ///< wall time of the preprocessing
+  NoiseCurve noise;    ///< sensor noise and quantisation, read off the plane fits
+  double seconds = 0;  ///< wall time of the preprocessing
 
   size_t index(int u, int v) const { return static_cast<size_t>(v) * width + u; }
   bool inside(int u, int v) const { return u >= 0 && v >= 0 && u < width && v < height; }

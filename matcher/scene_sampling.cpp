@@ -22,7 +22,9 @@ struct Cluster {
 class NormalClusterGrid {
  public:
   NormalClusterGrid(float cell, float theta_deg, size_t expected)
-      : inverse_cell_(1 / cell), cosine_(std::cos(theta_deg * std::numbers::pi_v<float> / 180)), clusters_(1) {
+      : inverse_cell_(1 / cell),
+        cosine_(std::cos(theta_deg * std::numbers::pi_v<float> / 180)),
+        clusters_(1) {
     size_t size = 1024;
     while (size < 2 * expected) size *= 2;
     keys_.assign(size, kNoKey);
@@ -52,7 +54,9 @@ class NormalClusterGrid {
     std::vector<std::pair<SampledPoint, float>> points;
     for (size_t i = 1; i < clusters_.size(); ++i) {
       const Cluster& c = clusters_[i];
-      points.push_back({{{c.position / c.weight, c.normal.normalized()}, c.area, c.edge_weight > 0.3f * c.weight}, c.weight});
+      points.push_back(
+          {{{c.position / c.weight, c.normal.normalized()}, c.area, c.edge_weight > 0.3f * c.weight},
+           c.weight});
     }
     return points;
   }
@@ -100,7 +104,8 @@ NormalClusterGrid finest_level(const Scene::Data& scene, const SamplingOptions& 
     for (int u = stride / 2; u < scene.width; u += stride) {
       const size_t at = scene.index(u, v);
       const float z = scene.smooth_depth[at];
-      if (z <= 0 || scene.pixel_size(z) > options.max_pixel_size || scene.noise.at(z) > options.max_noise) continue;
+      if (z <= 0 || scene.pixel_size(z) > options.max_pixel_size || scene.noise.at(z) > options.max_noise)
+        continue;
       const Eigen::Vector3f ray = scene.ray(u, v), normal = scene.normals[at];
       const float slant = std::max(0.1f, -normal.dot(ray) / ray.norm());
       const float side = scene.pixel_size(z) * static_cast<float>(stride);
@@ -135,8 +140,8 @@ std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingO
   return points;
 }
 
-std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& points, float diameter, const NoiseCurve& noise,
-                                            int threads) {
+std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& points, float diameter,
+                                            const NoiseCurve& noise, int threads) {
   constexpr float kPatch = 0.25f;      // [d] the scene is summed up in patches of this size first
   constexpr float kReach = 1.25f;      // [d] how far around a point its plane is followed
   constexpr float kMaxObjectArea = 1;  // [d^2] a plane face of an object covers at most pi / 4
@@ -149,7 +154,8 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
   // Points of one coarse cell share the patches that are near enough to matter.
   const float reach = kReach * diameter;
   std::map<uint64_t, std::vector<uint32_t>> cells;
-  for (uint32_t i = 0; i < points.size(); ++i) cells[cell_key(points[i].surface.position, 1 / reach)].push_back(i);
+  for (uint32_t i = 0; i < points.size(); ++i)
+    cells[cell_key(points[i].surface.position, 1 / reach)].push_back(i);
   PointGrid patch_grid(reach);
   for (uint32_t k = 0; k < patches.size(); ++k) patch_grid.add(patches[k].surface.position, k);
   std::vector<const std::vector<uint32_t>*> jobs;

@@ -14,9 +14,7 @@ namespace edgepose {
 namespace {
 
 /// Uniform in [0, 1) and the same on every platform, unlike std::uniform_real_distribution.
-double unit_random(std::mt19937_64& generator) {
-  return static_cast<double>(generator() >> 11) * 0x1.0p-53;
-}
+double unit_random(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
 
 template <typename T>
 void shuffle(std::vector<T>& values, std::mt19937_64& generator) {
@@ -74,10 +72,12 @@ std::vector<OrientedPoint> sample_surface(const Mesh& mesh, size_t count, uint64
   points.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     // Stratified along the cumulated area: evener than independent draws.
-    const double target = (static_cast<double>(i) + unit_random(generator)) / static_cast<double>(count) * total;
-    const size_t k = std::min<size_t>(
-        static_cast<size_t>(std::upper_bound(area_up_to.begin(), area_up_to.end(), target) - area_up_to.begin()),
-        mesh.triangles.size() - 1);
+    const double target =
+        (static_cast<double>(i) + unit_random(generator)) / static_cast<double>(count) * total;
+    const size_t k =
+        std::min<size_t>(static_cast<size_t>(std::upper_bound(area_up_to.begin(), area_up_to.end(), target) -
+                                             area_up_to.begin()),
+                         mesh.triangles.size() - 1);
     float a = static_cast<float>(unit_random(generator)), b = static_cast<float>(unit_random(generator));
     if (a + b > 1) a = 1 - a, b = 1 - b;
     const auto& t = mesh.triangles[k];
@@ -86,7 +86,8 @@ std::vector<OrientedPoint> sample_surface(const Mesh& mesh, size_t count, uint64
     const Eigen::Vector3d cross = edge1.cast<double>().cross(edge2.cast<double>());
     if (!(cross.norm() > 0)) continue;
     const Eigen::Vector3f face_normal = cross.normalized().cast<float>();
-    points.push_back({mesh.vertices[t[0]] + a * edge1 + b * edge2, blended_normal(mesh, t, face_normal, a, b)});
+    points.push_back(
+        {mesh.vertices[t[0]] + a * edge1 + b * edge2, blended_normal(mesh, t, face_normal, a, b)});
   }
   shuffle(points, generator);
   return points;
@@ -136,7 +137,8 @@ std::vector<OrientedPoint> smooth_normals(const std::vector<OrientedPoint>& poin
 float largest_distance(const std::vector<OrientedPoint>& points) {
   if (points.empty()) return 0;
   // The ends of the diameter are extreme in its direction: only points that are extreme in one of many
-  // directions are compared. Off by less than 0.1 % (half the angle between neighbouring directions is 2.5 degrees).
+  // directions are compared. Off by less than 0.1 % (half the angle between neighbouring directions is 2.5
+  // degrees).
   std::vector<uint32_t> extremes;
   for (const Eigen::Vector3f& direction : view_directions(1000)) {
     uint32_t farthest = 0;
@@ -149,7 +151,8 @@ float largest_distance(const std::vector<OrientedPoint>& points) {
   }
   float best = 0;
   for (uint32_t a : extremes)
-    for (uint32_t b : extremes) best = std::max(best, (points[a].position - points[b].position).squaredNorm());
+    for (uint32_t b : extremes)
+      best = std::max(best, (points[a].position - points[b].position).squaredNorm());
   return std::sqrt(best);
 }
 

@@ -10,7 +10,8 @@ namespace edgepose {
 /// `count` points spread over the mesh in proportion to area, each with its triangle's normal (blended from
 /// the vertices' normals where the mesh has them); a cloud's own points, thinned to `count`.
 /// In random order, the same for the same seed.
-/// Throws std::invalid_argument if the mesh has no area, or if a cloud has fewer than 100 points or no normals.
+/// Throws std::invalid_argument if the mesh has no area, or if a cloud has fewer than 100 points or no
+/// normals.
 std::vector<OrientedPoint> sample_surface(const Mesh& mesh, size_t count, uint64_t seed);
 
 /// Indices of points that keep `step` [m] apart, chosen greedily in order. With several decreasing `steps`

@@ -14,10 +14,10 @@ namespace edgepose {
 namespace {
 
 constexpr size_t kTestPoints = 600;
-constexpr float kMeanTolerance = 0.005f;   // [d] mean distance of the moved surface from itself
-constexpr float kOutlier = 0.02f;          // [d] farther off is not the same surface ...
-constexpr float kMaxOutliers = 0.01f;      // ... and this share of it may be
-constexpr double kEqualInertia = 0.04;     // relative difference of moments that count as equal
+constexpr float kMeanTolerance = 0.005f;  // [d] mean distance of the moved surface from itself
+constexpr float kOutlier = 0.02f;         // [d] farther off is not the same surface ...
+constexpr float kMaxOutliers = 0.01f;     // ... and this share of it may be
+constexpr double kEqualInertia = 0.04;    // relative difference of moments that count as equal
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -46,14 +46,16 @@ class SelfMatch {
 
  private:
   /// Distance along the normal from the moved point to the nearest surface that faces the same way.
-  std::pair<float, const OrientedPoint*> closest(const RigidTransform& motion, const OrientedPoint& point) const {
+  std::pair<float, const OrientedPoint*> closest(const RigidTransform& motion,
+                                                 const OrientedPoint& point) const {
     const Eigen::Vector3f p = (motion * point.position.cast<double>()).cast<float>();
     const Eigen::Vector3f n = (motion.linear() * point.normal.cast<double>()).cast<float>();
     const OrientedPoint* best = nullptr;
     float best_squared = std::numeric_limits<float>::infinity();
     grid_.visit_near(p, [&](uint32_t k) {
       const float squared = (surface_[k].position - p).squaredNorm();
-      if (squared < best_squared && surface_[k].normal.dot(n) > 0.5f) best_squared = squared, best = &surface_[k];
+      if (squared < best_squared && surface_[k].normal.dot(n) > 0.5f)
+        best_squared = squared, best = &surface_[k];
       return true;
     });
     // Samples are 0.018 d apart: farther than twice that there is no surface beside the point.
@@ -69,7 +71,8 @@ class SelfMatch {
     for (size_t i = 0; i < count; ++i) {
       const auto [distance, nearest] = closest(motion, surface_[i]);
       if (!nearest) continue;
-      const Eigen::Vector3d p = motion * surface_[i].position.cast<double>(), n = nearest->normal.cast<double>();
+      const Eigen::Vector3d p = motion * surface_[i].position.cast<double>(),
+                            n = nearest->normal.cast<double>();
       Eigen::Matrix<double, 6, 1> j;
       j << p.cross(n), n;
       a += j * j.transpose();
@@ -81,7 +84,8 @@ class SelfMatch {
     const Eigen::Vector3d w = x.head<3>();
     if (!x.allFinite() || w.norm() > 0.2) return false;
     RigidTransform correction = RigidTransform::Identity();
-    if (w.norm() > 1e-12) correction.linear() = Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix();
+    if (w.norm() > 1e-12)
+      correction.linear() = Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix();
     correction.translation() = x.tail<3>();
     motion = correction * motion;
     return true;
@@ -112,7 +116,8 @@ bool try_axis(const SelfMatch& self, const Eigen::Vector3d& centre, const Eigen:
   bool any_angle = true;
   for (double degrees : {37.0, 71.0, 113.0, 157.0}) {
     RigidTransform turn = turn_about(centre, axis, radians(degrees));
-    any_angle = any_angle && self.accept(turn) && std::abs(Eigen::AngleAxisd(turn.linear()).angle() - radians(degrees)) < radians(5);
+    any_angle = any_angle && self.accept(turn) &&
+                std::abs(Eigen::AngleAxisd(turn.linear()).angle() - radians(degrees)) < radians(5);
     if (!any_angle) break;
   }
   if (any_angle) return true;
@@ -135,13 +140,16 @@ std::vector<Eigen::Vector3d> possible_axes(const Eigen::Matrix3d& inertia) {
   const Eigen::Vector3d moments = solver.eigenvalues();
   const Eigen::Matrix3d axes = solver.eigenvectors();
   std::vector<Eigen::Vector3d> possible = {axes.col(0), axes.col(1), axes.col(2)};
-  const auto equal = [&](int a, int b) { return std::abs(moments[a] - moments[b]) < kEqualInertia * moments[2]; };
+  const auto equal = [&](int a, int b) {
+    return std::abs(moments[a] - moments[b]) < kEqualInertia * moments[2];
+  };
   if (equal(0, 1) && equal(1, 2)) {
     for (const Eigen::Vector3f& v : view_directions(400)) possible.push_back(v.cast<double>());
   } else if (equal(0, 1) || equal(1, 2)) {
     const int first = equal(0, 1) ? 0 : 1;
     for (int degrees = 0; degrees < 180; degrees += 3)
-      possible.push_back(std::cos(radians(degrees)) * axes.col(first) + std::sin(radians(degrees)) * axes.col(first + 1));
+      possible.push_back(std::cos(radians(degrees)) * axes.col(first) +
+                         std::sin(radians(degrees)) * axes.col(first + 1));
   }
   return possible;
 }
@@ -160,15 +168,16 @@ Symmetries find_symmetries(const std::vector<OrientedPoint>& surface, float diam
   Symmetries symmetries;
   for (const Eigen::Vector3d& axis : possible_axes(inertia))
     if (try_axis(self, centre, axis, symmetries.discrete)) {
-      const bool known = std::any_of(symmetries.continuous.begin(), symmetries.continuous.end(), [&](const SymmetryAxis& a) {
-        return std::abs(a.direction.dot(axis)) > 0.98;
-      });
+      const bool known =
+          std::any_of(symmetries.continuous.begin(), symmetries.continuous.end(),
+                      [&](const SymmetryAxis& a) { return std::abs(a.direction.dot(axis)) > 0.98; });
       if (!known) symmetries.continuous.push_back({centre, axis});
     }
   if (symmetries.continuous.size() == 1) {
     // Turns about the axis itself are covered by it; what is left turns it over.
     const Eigen::Vector3d axis = symmetries.continuous[0].direction;
-    std::erase_if(symmetries.discrete, [&](const RigidTransform& t) { return (t.linear() * axis).dot(axis) > 0.98; });
+    std::erase_if(symmetries.discrete,
+                  [&](const RigidTransform& t) { return (t.linear() * axis).dot(axis) > 0.98; });
     if (symmetries.discrete.size() > 1) symmetries.discrete.resize(1);
   }
   return symmetries;

@@ -14,11 +14,11 @@
 namespace edgepose {
 namespace {
 
-constexpr size_t kSurfaceSamples = 80000;   // about 0.006 d apart on a compact object
-constexpr float kNormalRadius = 0.03f;      // [d] support of the table's normals, as wide as the scene's
+constexpr size_t kSurfaceSamples = 80000;     // about 0.006 d apart on a compact object
+constexpr float kNormalRadius = 0.03f;        // [d] support of the table's normals, as wide as the scene's
 constexpr float kDenseNormalRadius = 0.012f;  // [d] of the finer ones
-constexpr float kSupportRadius = 0.035f;    // [d] of those compared with the scene's
-constexpr float kDenseStep = 0.018f;        // [d]
+constexpr float kSupportRadius = 0.035f;      // [d] of those compared with the scene's
+constexpr float kDenseStep = 0.018f;          // [d]
 constexpr size_t kMaxDensePoints = 8000;
 constexpr size_t kContourPointsPerView = 120;
 
@@ -49,8 +49,8 @@ void store_views(const std::vector<ViewVisibility>& views, ModelParts& parts) {
   }
 }
 
-PairFilter pair_filter(const std::vector<ViewVisibility>& views, size_t points, const FeatureQuantiser& quantiser,
-                       const TrainOptions& options) {
+PairFilter pair_filter(const std::vector<ViewVisibility>& views, size_t points,
+                       const FeatureQuantiser& quantiser, const TrainOptions& options) {
   PairFilter filter;
   const float step_deg = 180.f / static_cast<float>(quantiser.angle_bins);
   // Whole buckets only, so that the scene can skip the same ones.
@@ -77,10 +77,13 @@ void store_box(const std::vector<OrientedPoint>& points, ModelHeader& header) {
 }  // namespace
 
 std::string TrainOptions::check() const {
-  if (!(sampling_step >= 0.01f && sampling_step <= 0.2f)) return "sampling_step: expected 0.01 to 0.2 diameters";
-  if (!(distance_step >= 0.005f && distance_step <= 0.2f)) return "distance_step: expected 0.005 to 0.2 diameters";
+  if (!(sampling_step >= 0.01f && sampling_step <= 0.2f))
+    return "sampling_step: expected 0.01 to 0.2 diameters";
+  if (!(distance_step >= 0.005f && distance_step <= 0.2f))
+    return "distance_step: expected 0.005 to 0.2 diameters";
   if (!(angle_step_deg >= 2 && angle_step_deg <= 45)) return "angle_step_deg: expected 2 to 45 degrees";
-  if (!(min_normal_angle_deg >= 0 && min_normal_angle_deg < max_normal_angle_deg && max_normal_angle_deg <= 180))
+  if (!(min_normal_angle_deg >= 0 && min_normal_angle_deg < max_normal_angle_deg &&
+        max_normal_angle_deg <= 180))
     return "min_normal_angle_deg, max_normal_angle_deg: expected 0 <= min < max <= 180 degrees";
   if (views < 20 || views > 2000) return "views: expected 20 to 2000";
   return "";
@@ -105,11 +108,14 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
   ModelParts parts;
   parts.name = name;
   parts.view_directions = directions;
-  const auto coarse = thin_out(surface, {4 * options.sampling_step * diameter, options.sampling_step * diameter});
-  if (coarse.size() > 65535) throw std::invalid_argument("sampling_step: more than 65535 points; take a larger one");
+  const auto coarse =
+      thin_out(surface, {4 * options.sampling_step * diameter, options.sampling_step * diameter});
+  if (coarse.size() > 65535)
+    throw std::invalid_argument("sampling_step: more than 65535 points; take a larger one");
   parts.points = smooth_normals(surface, coarse, kNormalRadius * diameter, options.threads);
-  auto dense = thin_out(surface, {16 * kDenseStep * diameter, 8 * kDenseStep * diameter, 4 * kDenseStep * diameter,
-                                  2 * kDenseStep * diameter, kDenseStep * diameter});
+  auto dense =
+      thin_out(surface, {16 * kDenseStep * diameter, 8 * kDenseStep * diameter, 4 * kDenseStep * diameter,
+                         2 * kDenseStep * diameter, kDenseStep * diameter});
   if (dense.size() > kMaxDensePoints) dense.resize(kMaxDensePoints);
   parts.dense_points = smooth_normals(surface, dense, kDenseNormalRadius * diameter, options.threads);
   for (const OrientedPoint& p : smooth_normals(surface, dense, kSupportRadius * diameter, options.threads))
@@ -123,7 +129,8 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
                              static_cast<uint32_t>(std::ceil(1 / options.distance_step - 1e-4f)) + 1,
                              static_cast<uint32_t>(std::lround(180 / options.angle_step_deg))};
   quantiser.inverse_angle_step = static_cast<float>(quantiser.angle_bins) / std::numbers::pi_v<float>;
-  const auto coarse_views = look_from_all_sides(surface, parts.points, directions, diameter, 0, options.threads);
+  const auto coarse_views =
+      look_from_all_sides(surface, parts.points, directions, diameter, 0, options.threads);
   const PairFilter filter = pair_filter(coarse_views, parts.points.size(), quantiser, options);
   PairTable table = build_pair_table(parts.points, quantiser, filter, options.threads);
   parts.offsets = std::move(table.offsets);
@@ -140,7 +147,8 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
   h.dense_step = kDenseStep * diameter;
   h.distance_step = options.distance_step * diameter;
   store_box(surface, h);
-  store_symmetries(options.find_symmetries ? find_symmetries(parts.dense_points, diameter) : Symmetries{}, declared, parts);
+  store_symmetries(options.find_symmetries ? find_symmetries(parts.dense_points, diameter) : Symmetries{},
+                   declared, parts);
   report(1);
   return make_model(parts);
 }

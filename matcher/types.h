@@ -15,7 +15,7 @@ using RigidTransform = Eigen::Isometry3d;
 /// Triangles, or a cloud if `triangles` is empty. Metres, model frame.
 struct Mesh {
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector3f> normals;  ///< one per vertex, unit length, outwards; or empty
+  std::vector<Eigen::Vector3f> normals;            ///< one per vertex, unit length, outwards; or empty
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 

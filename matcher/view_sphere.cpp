@@ -10,8 +10,8 @@
 namespace edgepose {
 namespace {
 
-constexpr int kSize = 128;            // pixels a side
-constexpr float kPixelsOnModel = 110; // pixels along the diameter
+constexpr int kSize = 128;             // pixels a side
+constexpr float kPixelsOnModel = 110;  // pixels along the diameter
 constexpr float kEmpty = std::numeric_limits<float>::infinity();
 constexpr float kSameSurface = 0.025f;  // [d] depth difference within which two points are one surface
 constexpr float kJump = 0.05f;          // [d] depth difference that makes an occluding edge
@@ -21,7 +21,10 @@ class SplatView {
  public:
   SplatView(const std::vector<OrientedPoint>& surface, const Eigen::Vector3f& direction,
             const Eigen::Vector3f& centre, float diameter)
-      : direction_(direction), centre_(centre), pixel_(diameter / kPixelsOnModel), depth_(kSize * kSize, kEmpty) {
+      : direction_(direction),
+        centre_(centre),
+        pixel_(diameter / kPixelsOnModel),
+        depth_(kSize * kSize, kEmpty) {
     right_ = direction.unitOrthogonal();
     down_ = direction.cross(right_);
     for (const auto& p : surface) {
@@ -120,8 +123,8 @@ std::vector<Eigen::Vector3f> view_directions(int count) {
 
 std::vector<ViewVisibility> look_from_all_sides(const std::vector<OrientedPoint>& surface,
                                                 const std::vector<OrientedPoint>& queries,
-                                                const std::vector<Eigen::Vector3f>& directions, float diameter,
-                                                size_t max_contour_points, int threads) {
+                                                const std::vector<Eigen::Vector3f>& directions,
+                                                float diameter, size_t max_contour_points, int threads) {
   Eigen::AlignedBox3f box;
   for (const auto& p : surface) box.extend(p.position);
   std::vector<ViewVisibility> views(directions.size());

@@ -26,7 +26,7 @@ struct ViewVisibility {
 /// visible and where the outlines run. `diameter` in metres sets the resolution (diameter / 110 a pixel).
 std::vector<ViewVisibility> look_from_all_sides(const std::vector<OrientedPoint>& surface,
                                                 const std::vector<OrientedPoint>& queries,
-                                                const std::vector<Eigen::Vector3f>& directions, float diameter,
-                                                size_t max_contour_points, int threads);
+                                                const std::vector<Eigen::Vector3f>& directions,
+                                                float diameter, size_t max_contour_points, int threads);
 
 }  // namespace edgepose

@@ -35,7 +35,8 @@ class Accumulator {
       : view_(model.view()), votes_(view_.points.size() * kAlphaBins), flags_(view_.offsets.size() - 1) {
     const ModelHeader& h = *view_.header;
     quantiser_ = {static_cast<float>(1 / h.distance_step),
-                  static_cast<float>(h.angle_bins) / std::numbers::pi_v<float>, h.distance_bins, h.angle_bins};
+                  static_cast<float>(h.angle_bins) / std::numbers::pi_v<float>, h.distance_bins,
+                  h.angle_bins};
   }
 
   void vote_for(const std::vector<OrientedPoint>& points, uint32_t reference, float border) {
@@ -46,13 +47,15 @@ class Accumulator {
     for (uint32_t s = 0; s < points.size(); ++s) {
       const float squared = (points[s].position - r.position).squaredNorm();
       if (squared > reach * reach || s == reference || squared <= 0) continue;
-      vote_pair(quantiser_.feature(r, points[s], std::sqrt(squared)), frame.alpha(points[s].position), border);
+      vote_pair(quantiser_.feature(r, points[s], std::sqrt(squared)), frame.alpha(points[s].position),
+                border);
     }
     for (uint32_t bucket : flagged_) flags_[bucket] = 0;
     flagged_.clear();
   }
 
-  /// The strongest (model point, alpha) entries as poses; the votes of two neighbouring alphas count together.
+  /// The strongest (model point, alpha) entries as poses; the votes of two neighbouring alphas count
+  /// together.
   void peaks(const OrientedPoint& reference, std::span<PoseHypothesis> best) const {
     struct Peak {
       uint32_t votes = 0, point = 0, alpha = 0;
@@ -67,10 +70,12 @@ class Accumulator {
       }
       if (peak.votes <= top.back().votes) continue;
       top.back() = peak;
-      for (size_t k = top.size() - 1; k > 0 && top[k].votes > top[k - 1].votes; --k) std::swap(top[k], top[k - 1]);
+      for (size_t k = top.size() - 1; k > 0 && top[k].votes > top[k - 1].votes; --k)
+        std::swap(top[k], top[k - 1]);
     }
     const ReferenceFrame scene_frame(reference);
-    for (size_t k = 0; k < top.size(); ++k) best[k] = pose(scene_frame, top[k].point, top[k].alpha, top[k].votes);
+    for (size_t k = 0; k < top.size(); ++k)
+      best[k] = pose(scene_frame, top[k].point, top[k].alpha, top[k].votes);
   }
 
  private:
@@ -80,11 +85,13 @@ class Accumulator {
     const Bins first = bins_of(f.angle_reference, border, quantiser_.angle_bins);
     const Bins second = bins_of(f.angle_second, border, quantiser_.angle_bins);
     for (int n = 0; n < normals.count; ++n) {
-      if (normals.bin[n] < view_.header->normal_bin_first || normals.bin[n] > view_.header->normal_bin_last) continue;
+      if (normals.bin[n] < view_.header->normal_bin_first || normals.bin[n] > view_.header->normal_bin_last)
+        continue;
       for (int d = 0; d < distance.count; ++d)
         for (int a = 0; a < first.count; ++a)
           for (int b = 0; b < second.count; ++b)
-            vote_bucket(quantiser_.bucket(distance.bin[d], first.bin[a], second.bin[b], normals.bin[n]), alpha_scene);
+            vote_bucket(quantiser_.bucket(distance.bin[d], first.bin[a], second.bin[b], normals.bin[n]),
+                        alpha_scene);
     }
   }
 
@@ -104,7 +111,8 @@ class Accumulator {
     }
   }
 
-  PoseHypothesis pose(const ReferenceFrame& scene_frame, uint32_t point, uint32_t alpha_bin, uint32_t votes) const {
+  PoseHypothesis pose(const ReferenceFrame& scene_frame, uint32_t point, uint32_t alpha_bin,
+                      uint32_t votes) const {
     const uint16_t* row = votes_.data() + size_t{point} * kAlphaBins;
     const float first = row[alpha_bin], second = row[(alpha_bin + 1) & (kAlphaBins - 1)];
     const float middle = static_cast<float>(alpha_bin) + 0.5f + second / std::max(1.f, first + second);
@@ -127,7 +135,8 @@ std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedP
                                  const std::vector<uint32_t>& references, const VotingOptions& options) {
   const size_t peaks = static_cast<size_t>(options.peaks_per_reference);
   std::vector<PoseHypothesis> hypotheses(references.size() * peaks);
-  const size_t chunks = std::min<size_t>(references.size(), static_cast<size_t>(thread_count(options.threads)));
+  const size_t chunks =
+      std::min<size_t>(references.size(), static_cast<size_t>(thread_count(options.threads)));
   parallel_for(chunks, options.threads, [&](size_t chunk) {
     Accumulator accumulator(model);
     for (size_t i = chunk; i < references.size(); i += chunks) {

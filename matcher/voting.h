@@ -14,8 +14,8 @@ struct PoseHypothesis {
 };
 
 struct VotingOptions {
-  int peaks_per_reference = 4;   ///< best entries of each accumulator that become hypotheses
-  float border = 0.2f;           ///< [bins] features this close to a bucket's border also vote in the next one
+  int peaks_per_reference = 4;  ///< best entries of each accumulator that become hypotheses
+  float border = 0.2f;          ///< [bins] features this close to a bucket's border also vote in the next one
   int threads = 0;
 };
 
