@@ -51,7 +51,8 @@ struct PixelProjection {
     return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
   }
   Eigen::Vector3f ray(int64_t pixel_index) const {
-    const float u = static_cast<float>(pixel_index % width), v = static_cast<float>(pixel_index / width);
+    const int64_t column = pixel_index % width, row = pixel_index / width;
+    const auto u = static_cast<float>(column), v = static_cast<float>(row);
     return {(u - cx) / fx, (v - cy) / fy, 1.f};
   }
 

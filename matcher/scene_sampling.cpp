@@ -149,7 +149,9 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
   NormalClusterGrid grid(kPatch * diameter, 10, points.size() / 4);
   for (const SampledPoint& p : points) grid.add(p, p.area);
   std::vector<SampledPoint> patches;
-  for (const auto& [patch, weight] : grid.take()) patches.push_back(patch);
+  const auto taken = grid.take();
+  patches.reserve(taken.size());
+  for (const auto& [patch, weight] : taken) patches.push_back(patch);
 
   // Points of one coarse cell share the patches that are near enough to matter.
   const float reach = kReach * diameter;
@@ -159,6 +161,7 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
   PointGrid patch_grid(reach);
   for (uint32_t k = 0; k < patches.size(); ++k) patch_grid.add(patches[k].surface.position, k);
   std::vector<const std::vector<uint32_t>*> jobs;
+  jobs.reserve(cells.size());
   for (const auto& [key, members] : cells) jobs.push_back(&members);
 
   std::vector<char> background(points.size(), 0);

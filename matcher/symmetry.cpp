@@ -137,19 +137,19 @@ bool try_axis(const SelfMatch& self, const Eigen::Vector3d& centre, const Eigen:
 /// Axes that a symmetry can have: principal axes; where two moments are equal, all directions in their plane.
 std::vector<Eigen::Vector3d> possible_axes(const Eigen::Matrix3d& inertia) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-  const Eigen::Vector3d moments = solver.eigenvalues();
-  const Eigen::Matrix3d axes = solver.eigenvectors();
+  const Eigen::Vector3d& moments = solver.eigenvalues();
+  const Eigen::Matrix3d& axes = solver.eigenvectors();
   std::vector<Eigen::Vector3d> possible = {axes.col(0), axes.col(1), axes.col(2)};
   const auto equal = [&](int a, int b) {
     return std::abs(moments[a] - moments[b]) < kEqualInertia * moments[2];
   };
   if (equal(0, 1) && equal(1, 2)) {
-    for (const Eigen::Vector3f& v : view_directions(400)) possible.push_back(v.cast<double>());
+    for (const Eigen::Vector3f& v : view_directions(400)) possible.emplace_back(v.cast<double>());
   } else if (equal(0, 1) || equal(1, 2)) {
     const int first = equal(0, 1) ? 0 : 1;
     for (int degrees = 0; degrees < 180; degrees += 3)
-      possible.push_back(std::cos(radians(degrees)) * axes.col(first) +
-                         std::sin(radians(degrees)) * axes.col(first + 1));
+      possible.emplace_back(std::cos(radians(degrees)) * axes.col(first) +
+                            std::sin(radians(degrees)) * axes.col(first + 1));
   }
   return possible;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,20 @@ void check_command(const CLI::App& app, const std::string& word) {
                    "? (edgepose --help shows all)");
 }
 
-int run(CLI::App& app, int argc, char** argv) {
+void add_commands(CLI::App& app) {
+  app.name("edgepose");
+  app.set_version_flag("--version", "edgepose " EDGEPOSE_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples);
+  add_train_command(app);
+  add_info_command(app);
+  add_match_command(app);
+  add_eval_command(app);
+  add_study_command(app);
+  add_render_command(app);
+}
+
+int parse_and_run(CLI::App& app, int argc, char** argv) {
   try {
     if (argc > 1) check_command(app, argv[1]);
     app.parse(argc, argv);
@@ -59,8 +73,6 @@ int run(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return report_bad_input(std::string(error.what()) + " (edgepose --help shows the options)");
-  } catch (const std::exception& error) {
-    return report_bad_input(error.what());
   }
 }
 
@@ -68,16 +80,13 @@ int run(CLI::App& app, int argc, char** argv) {
 }  // namespace edgepose
 
 int main(int argc, char** argv) {
-  CLI::App app{"edgepose: finds an object's 6D pose in a depth image by edge-enhanced point pair features"};
-  app.name("edgepose");
-  app.set_version_flag("--version", "edgepose " EDGEPOSE_VERSION);
-  app.require_subcommand(1);
-  app.footer(edgepose::kExamples);
-  edgepose::add_train_command(app);
-  edgepose::add_info_command(app);
-  edgepose::add_match_command(app);
-  edgepose::add_eval_command(app);
-  edgepose::add_study_command(app);
-  edgepose::add_render_command(app);
-  return edgepose::run(app, argc, argv);
+  try {
+    CLI::App app{"edgepose: finds an object's 6D pose in a depth image by edge-enhanced point pair features"};
+    edgepose::add_commands(app);
+    return edgepose::parse_and_run(app, argc, argv);
+  } catch (const std::bad_alloc&) {
+    return edgepose::report_bad_input("out of memory");
+  } catch (const std::exception& error) {
+    return edgepose::report_bad_input(error.what());
+  }
 }

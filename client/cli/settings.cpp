@@ -97,6 +97,7 @@ void apply(const toml::table& table, const std::string& prefix, const std::files
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return k.path == path; });
     if (key == keys.end()) {
       std::vector<std::string> known;
+      known.reserve(keys.size());
       for (const SettingKey& k : keys) known.push_back(k.path);
       throw InputError::at(where(file, node.source()), "a known key", path,
                            "did you mean " + nearest_word(path, known) + "?");
