@@ -33,9 +33,9 @@ struct MatchOptions {
       true;  ///< keep edge and high-curvature points (paper Fig. 4); false = plain normal clusters
   float reference_share =
       0.2f;  ///< share of the scene points used as reference points (paper: 1/5); time grows with it
-  int max_instances = 1;      ///< how many instances of the model to look for
-  float accept_score = 0.5f;  ///< [0, 1] detections with a lower score are reported as not accepted
-  bool refine = true;         ///< ICP
+  int max_instances = 1;       ///< how many instances of the model to look for
+  float accept_score = 0.66f;  ///< [0, 1] detections with a lower score are reported as not accepted
+  bool refine = true;          ///< ICP
   uint64_t seed = 1;
   int threads = 0;  ///< 0 = all cores; the result does not depend on it
 

@@ -30,7 +30,7 @@ template <typename T>
 std::span<const T> section(std::span<const std::byte> block, const ModelHeader& header, Section which) {
   const auto& extent = header.sections[static_cast<size_t>(which)];
   const uint64_t room = extent.offset <= block.size() ? block.size() - extent.offset : 0;
-  if (extent.offset % kAlignment != 0 || extent.count > room / sizeof(T))
+  if (extent.offset > block.size() || extent.offset % kAlignment != 0 || extent.count > room / sizeof(T))
     refuse("section " + std::to_string(static_cast<int>(which)) + " inside the file",
            "one that ends beyond it");
   return {reinterpret_cast<const T*>(block.data() + extent.offset), static_cast<size_t>(extent.count)};
