@@ -12,7 +12,7 @@ inline std::filesystem::path shared_data(const std::string& what) {
 }
 
 /// Skips the running test, loudly, if the test set is missing.
-#define EDGEPOSE_NEEDS_SHARED(what)                                                                    \
-  if (!std::filesystem::exists(shared_data(what)))                                                     \
+#define EDGEPOSE_NEEDS_SHARED(what)                                                                      \
+  if (!std::filesystem::exists(shared_data(what)))                                                       \
   GTEST_SKIP() << "SKIPPED, test data missing: " << shared_data(what) << " (set EDGEPOSE_SHARED to the " \
                << "folder that holds data/" << (what) << ")"
