@@ -94,8 +94,8 @@ void MatchCommand::run() const {
   std::vector<NamedResult> results;
   for (size_t i = 0; i < inputs.size(); ++i) {
     const Model& model = inputs[i].model;
-    results.push_back({model.name(), inputs[i].file.string(), model.diameter(), model.centre(), model.symmetries(),
-                       std::move(answers[i])});
+    results.push_back({model.name(), inputs[i].file.string(), model.diameter(), model.centre(),
+                       model.symmetries(), std::move(answers[i])});
   }
 
   if (!overlay.empty()) {
