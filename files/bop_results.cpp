@@ -34,7 +34,7 @@ double number(std::string_view field, const std::string& where, const char* what
 }
 
 int id(std::string_view field, const std::string& where, const char* what) {
-  const auto value = identifier(field);
+  const auto value = identifier(trim(field));
   if (!value) throw InputError::at(where, std::string("an id as ") + what, edgepose::quoted(field));
   return *value;
 }

@@ -81,7 +81,8 @@ CameraFile parse_camera_info(std::string_view text, const std::string& name) {
     if (!root.IsMap()) throw InputError::at(name, kExpected, "no YAML map");
     return from_map(root, name);
   } catch (const YAML::Exception& error) {
-    throw InputError::at(name, kExpected, "line " + std::to_string(error.mark.line + 1) + ": " + error.msg,
+    throw InputError::at(name, kExpected,
+                         "line " + std::to_string(error.mark.line + 1) + ": " + printable(error.msg),
                          "the file is cut short or damaged, or is not YAML");
   }
 }

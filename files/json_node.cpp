@@ -97,9 +97,8 @@ nlohmann::json parse_json(std::string_view text, const std::string& name) {
     // "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error ... - last read: '...'"
     std::string_view message = error.what();
     if (const size_t end = message.find("] "); end != std::string_view::npos) message.remove_prefix(end + 2);
-    std::string found;
-    for (const char c : message.substr(0, 160)) found += (c >= ' ' && c <= '~') ? c : '?';
-    throw InputError::at(name, "JSON", found, "the file is cut short or damaged, or is not JSON");
+    throw InputError::at(name, "JSON", printable(message),
+                         "the file is cut short or damaged, or is not JSON");
   }
 }
 

@@ -1,6 +1,7 @@
 #include "files/model_file.h"
 
 #include <stdexcept>
+#include <string>
 
 #include "common/atomic_file.h"
 #include "common/error.h"
@@ -17,7 +18,10 @@ Model load_model(const std::filesystem::path& path) {
   try {
     return Model::from_block(file.bytes, file.owner);
   } catch (const std::invalid_argument& error) {
-    throw InputError(path.string() + ": " + error.what() + "; train the model again (edgepose train)");
+    const std::string cause = error.what();
+    const bool advised = cause.find("train") != std::string::npos;
+    throw InputError(path.string() + ": " + cause +
+                     (advised ? "" : "; train the model again (edgepose train)"));
   }
 }
 

@@ -36,7 +36,7 @@ std::optional<double> finite_number(std::string_view text) {
 }
 
 std::optional<int> identifier(std::string_view text) {
-  const auto value = parse_integer(trim(text));
+  const auto value = parse_integer(text);
   if (!value || *value < 0 || *value > std::numeric_limits<int>::max()) return std::nullopt;
   return static_cast<int>(*value);
 }
@@ -60,6 +60,13 @@ std::vector<std::string_view> split_at_blanks(std::string_view text) {
   std::vector<std::string_view> parts;
   for (std::string_view token; !(token = next_token(text)).empty();) parts.push_back(token);
   return parts;
+}
+
+std::string printable(std::string_view text) {
+  std::string result(text.substr(0, 160));
+  for (char& c : result)
+    if (c < ' ' || c > '~') c = '?';
+  return result;
 }
 
 }  // namespace edgepose

@@ -164,6 +164,7 @@ TEST(BopSet, RefusesUnsoundObjects) {
       {replaced(kObjects, "0,0,0,1]]", "10,20,0,1]]"), "row by row"},
       {replaced(kObjects, "\"10\"", "\"ten\""), "'ten'"},
       {replaced(kObjects, "\"10\"", "\"02\""), "2 twice"},
+      {replaced(kObjects, "\"10\"", "\"\\n10\""), "'?10'"},
       {"[]", "an object"},
       {"", "JSON"},
       {"{", "JSON"}};

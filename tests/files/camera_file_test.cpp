@@ -177,6 +177,8 @@ TEST(CameraFile, RefusesUnsoundYaml) {
       {"a: [1, 2", "line"},
       {"a: *nowhere", "line"},
       {std::string("K: \0", 4), "binary"},
+      {"k: \"\\\x9c\"", "escape character: ?"},
+      {"k: \"\\\n\x10\\\x10\"", "line"},
       {std::string(3000, '['), "line"},
       {std::string(3000, '{').insert(0, " - "), "line"}};
   for (const auto& [text, found] : cases)
