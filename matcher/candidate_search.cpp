@@ -63,7 +63,7 @@ void merge_like(std::vector<Candidate>& ranked, const Model& model, float distan
 
 CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model,
                                  const std::vector<OrientedPoint>& points, const MatchOptions& options)
-    : scene_(scene), model_(model), points_(points), options_(options) {
+    : scene_(scene), model_(model), points_(points), partners_(points, static_cast<float>(model.diameter())), options_(options) {
   const Model::View& view = model.view();
   const std::array<float, 3> typical = {typical_points(view, kQuickPoints),
                                         typical_points(view, kMiddlePoints),
@@ -100,7 +100,7 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
   Stopwatch watch;
   VotingOptions voting;
   voting.threads = options_.threads;
-  auto hypotheses = vote(model_, points_, references, voting);
+  auto hypotheses = vote(model_, points_, partners_, references, voting);
   result.times.voting += watch.lap();
   const auto clusters = cluster_poses(std::move(hypotheses), model_, {});
   result.candidates += clusters.size();

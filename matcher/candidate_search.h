@@ -54,6 +54,7 @@ class CandidateSearch {
   const Scene::Data& scene_;
   const Model& model_;
   const std::vector<OrientedPoint>& points_;
+  PartnerSearch partners_;
   const MatchOptions& options_;
   std::array<VerificationSettings, NoiseCurve::kBins> settings_;  // by depth
 };

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "matcher/parallel.h"
+#include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
@@ -22,6 +23,35 @@ float continued_depth(const Scene::Data& scene, int u, int v, int nu, int nv) {
   const float slant = normal.dot(scene.ray(nu, nv));
   if (slant > -0.05f) return scene.depth[at];  // grazing: the continuation says nothing
   return normal.dot(scene.smooth_point(u, v)) / slant;
+}
+
+/// Marks the pixels of row v near which something could be an outline: a hole, or a step that is large enough,
+/// in one of the four directions. Few pixels are left to look at closely.
+EDGEPOSE_WIDE_SIMD void mark_steps(const float* centre, std::array<const float*, 2 * kGap> rows, int width,
+                                   float jump_for_depth, uint8_t* marked) {
+  for (int u = kGap; u < width - kGap; ++u) {
+    const float z = centre[u], limit = z + jump_for_depth * z;
+    bool step = false;
+#pragma GCC unroll 3
+    for (int k = 1; k <= kGap; ++k)
+      step |= (centre[u - k] <= 0) | (centre[u - k] > limit) | (centre[u + k] <= 0) | (centre[u + k] > limit);
+#pragma GCC unroll 6
+    for (size_t k = 0; k < rows.size(); ++k) step |= (rows[k][u] <= 0) | (rows[k][u] > limit);
+    marked[u] = step;
+  }
+}
+
+/// For each pixel of row v whether outline_kind() need look at it.
+void mark_row(const Scene::Data& scene, int v, std::vector<uint8_t>& marked) {
+  std::fill(marked.begin(), marked.end(), uint8_t{1});
+  if (v < kGap || v >= scene.height - kGap) return;
+  const float* centre = scene.depth.data() + scene.index(0, v);
+  std::array<const float*, 2 * kGap> rows;
+  for (int k = 0; k < kGap; ++k) {
+    rows[2 * k] = centre - (k + 1) * scene.width;
+    rows[2 * k + 1] = centre + (k + 1) * scene.width;
+  }
+  mark_steps(centre, rows, scene.width, scene.pixel_size(kJumpPixels), marked.data());
 }
 
 EdgeKind outline_kind(const Scene::Data& scene, int u, int v) {
@@ -66,10 +96,12 @@ void detect_edges(Scene::Data& scene, int threads) {
   scene.edges.assign(scene.depth.size(), EdgeKind::kNone);
   parallel_for(static_cast<size_t>(scene.height), threads, [&](size_t row) {
     const int v = static_cast<int>(row);
+    std::vector<uint8_t> marked(static_cast<size_t>(scene.width));
+    mark_row(scene, v, marked);
     for (int u = 0; u < scene.width; ++u) {
       const size_t at = scene.index(u, v);
       if (scene.smooth_depth[at] <= 0) continue;
-      scene.edges[at] = outline_kind(scene, u, v);
+      if (marked[u]) scene.edges[at] = outline_kind(scene, u, v);
       if (scene.edges[at] == EdgeKind::kNone && is_crease(scene, u, v)) scene.edges[at] = EdgeKind::kCrease;
     }
   });

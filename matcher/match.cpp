@@ -56,7 +56,8 @@ std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Mod
   Stopwatch watch;
   VotingOptions voting;
   voting.threads = options.threads;
-  auto hypotheses = vote(model, points, references, voting);
+  const PartnerSearch partners(points, static_cast<float>(model.diameter()));
+  auto hypotheses = vote(model, points, partners, references, voting);
   result.times.voting = watch.lap();
   const auto clusters = cluster_poses(std::move(hypotheses), model, {});
   result.candidates = clusters.size();

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "matcher/parallel.h"
+#include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
@@ -13,8 +14,17 @@ constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that sti
 constexpr int kMinNeighbours = 12;  // of 36
 constexpr int kRowsPerJob = 8;
 
-/// Sums of the least-squares fit w = a du + b dv + c for a whole row; structure of arrays, so that the
-/// compiler vectorises the inner loop.
+struct Intrinsics {
+  float fx, fy, cx, cy;  // pixels
+  explicit Intrinsics(const Camera& c)
+      : fx(static_cast<float>(c.fx)),
+        fy(static_cast<float>(c.fy)),
+        cx(static_cast<float>(c.cx)),
+        cy(static_cast<float>(c.cy)) {}
+};
+
+/// Sums of the least-squares fit w = a du + b dv + c for each pixel of a row; structure of arrays, so that the
+/// compiler vectorises over the pixels.
 struct RowSums {
   explicit RowSums(size_t width)
       : n(width),
@@ -33,54 +43,91 @@ struct RowSums {
   std::vector<float> n, x, y, xx, xy, yy, w, xw, yw, ww;
 };
 
-/// Adds the neighbours (u + du, v + dv) of all pixels of row v that lie on the same surface. In inverse
-/// depth a plane is linear in the pixel coordinates, whatever its slope.
-void add_neighbours(const Scene::Data& scene, const std::vector<float>& inverse,
-                    const std::vector<float>& tolerance, int v, int du, int dv, RowSums& sums) {
-  const int first = std::max(0, -du), last = std::min(scene.width, scene.width - du);
-  const float* centre = inverse.data() + static_cast<size_t>(v) * scene.width;
-  const float* allowed = tolerance.data() + static_cast<size_t>(v) * scene.width;
-  const float* other = inverse.data() + static_cast<size_t>(v + dv) * scene.width + du;
-  const float dx = static_cast<float>(du), dy = static_cast<float>(dv);
-  const float reach = std::sqrt(dx * dx + dy * dy) + 2.f;  // the two pixels more absorb noise
+/// Inverse depth with a margin of pixels without measurement, so that no neighbour needs a bounds check.
+/// In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
+struct InverseDepth {
+  explicit InverseDepth(const Scene::Data& scene)
+      : stride(static_cast<size_t>(scene.width + 2 * kMargin)),
+        values(stride * static_cast<size_t>(scene.height + 2 * kMargin), 0.f) {
+    for (int v = 0; v < scene.height; ++v) {
+      const float* depth = scene.depth.data() + scene.index(0, v);
+      float* out = values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
+      for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
+    }
+  }
+  const float* row(int v) const { return values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin; }
+
+  static constexpr int kMargin = kOffsets.back();
+  size_t stride;
+  std::vector<float> values;
+};
+
+/// Adds the six neighbours in row v + dv of every pixel of row v, those that lie on the same surface.
+/// `slope`: largest change of inverse depth for each pixel and unit of inverse depth.
+EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* other, int width, float dv, float slope,
+                                          RowSums& sums) {
   float *n = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
         *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
         *yw = sums.yw.data(), *ww = sums.ww.data();
-  for (int u = first; u < last; ++u) {
-    const float difference = other[u] - centre[u];  // relative to the centre: keeps single precision accurate
-    const bool same = std::abs(difference) < allowed[u] * reach && other[u] > 0.f;
-    const float m = same ? 1.f : 0.f, d = same ? difference : 0.f;
-    n[u] += m, x[u] += m * dx, y[u] += m * dy;
-    xx[u] += m * (dx * dx), xy[u] += m * (dx * dy), yy[u] += m * (dy * dy);
-    w[u] += d, xw[u] += dx * d, yw[u] += dy * d, ww[u] += d * d;
+  std::array<float, kOffsets.size()> reach;
+  for (size_t k = 0; k < kOffsets.size(); ++k) {
+    const float du = static_cast<float>(kOffsets[k]);
+    reach[k] = slope * (std::sqrt(du * du + dv * dv) + 2.f);  // the two pixels more absorb noise
+  }
+#pragma GCC ivdep
+  for (int u = 0; u < width; ++u) {
+    float rn = 0, rx = 0, rxx = 0, rw = 0, rxw = 0, rww = 0;
+#pragma GCC unroll 6
+    for (size_t k = 0; k < kOffsets.size(); ++k) {
+      const float du = static_cast<float>(kOffsets[k]);
+      const float beside = other[u + kOffsets[k]];
+      const float difference = beside - centre[u];  // relative to the centre: keeps single precision accurate
+      const float limit = beside > 0.f ? centre[u] * reach[k] : -1.f;
+      const float m = std::abs(difference) < limit ? 1.f : 0.f;
+      const float d = m * difference;
+      rn += m, rx += m * du, rxx += m * (du * du);
+      rw += d, rxw += du * d, rww += d * d;
+    }
+    n[u] += rn, x[u] += rx, xx[u] += rxx, w[u] += rw, xw[u] += rxw, ww[u] += rww;
+    y[u] += dv * rn, yy[u] += dv * dv * rn, xy[u] += dv * rx, yw[u] += dv * rw;
   }
 }
 
-/// Solves the fit of one pixel; returns the residual [m], or a negative number if there is no fit.
-float fit_plane(Scene::Data& scene, const RowSums& s, float inverse, int u, int v) {
-  const size_t at = scene.index(u, v);
-  const float n = s.n[u];
-  if (inverse <= 0 || n < kMinNeighbours) return -1;
-  const float mx = s.x[u] / n, my = s.y[u] / n, mw = s.w[u] / n;
-  const float cxx = s.xx[u] - n * mx * mx, cxy = s.xy[u] - n * mx * my, cyy = s.yy[u] - n * my * my;
-  const float cxw = s.xw[u] - n * mx * mw, cyw = s.yw[u] - n * my * mw;
-  const float determinant = cxx * cyy - cxy * cxy;
-  if (determinant < 0.02f * (cxx + cyy) * (cxx + cyy) || determinant <= 0)
-    return -1;  // nearly a line of pixels
-  const float a = (cxw * cyy - cyw * cxy) / determinant, b = (cyw * cxx - cxw * cxy) / determinant;
-  const float fitted = inverse + mw - a * mx - b * my;  // inverse depth of the plane at the pixel
-  if (!(fitted > 0.2f * inverse)) return -1;
+/// The fitted planes of a row: normal times its length, depth at the pixel, residual [m] (negative: no fit).
+struct RowPlanes {
+  explicit RowPlanes(size_t width) : x(width), y(width), z(width), depth(width), residual(width) {}
+  std::vector<float> x, y, z, depth, residual;
+};
 
-  const Camera& c = scene.camera;
-  const float fx = static_cast<float>(c.fx), fy = static_cast<float>(c.fy);
-  // The plane n.X = D has inverse depth (n.ray) / D, so its normal can be read off the fit.
-  const Eigen::Vector3f normal(a * fx, b * fy,
-                               fitted + a * (static_cast<float>(c.cx) - static_cast<float>(u)) +
-                                   b * (static_cast<float>(c.cy) - static_cast<float>(v)));
-  scene.normals[at] = -normal.normalized();  // n.X > 0 points away from the camera
-  scene.smooth_depth[at] = 1 / fitted;
-  const float squares = s.ww[u] - n * mw * mw - a * cxw - b * cyw;
-  return std::sqrt(std::max(0.f, squares) / (n - 3)) / (inverse * inverse);
+/// Solves the fits of row v.
+EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, int width, float v,
+                                   Intrinsics camera, RowPlanes& planes) {
+  const float *sn = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
+              *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
+              *yw = sums.yw.data(), *ww = sums.ww.data();
+  float *nx = planes.x.data(), *ny = planes.y.data(), *nz = planes.z.data(), *depth = planes.depth.data(),
+        *residual = planes.residual.data();
+#pragma GCC ivdep
+  for (int u = 0; u < width; ++u) {
+    const float n = std::max(sn[u], 1.f), mx = x[u] / n, my = y[u] / n, mw = w[u] / n;
+    const float cxx = xx[u] - n * mx * mx, cxy = xy[u] - n * mx * my, cyy = yy[u] - n * my * my;
+    const float cxw = xw[u] - n * mx * mw, cyw = yw[u] - n * my * mw;
+    const float determinant = cxx * cyy - cxy * cxy;
+    const float a = (cxw * cyy - cyw * cxy) / determinant, b = (cyw * cxx - cxw * cxy) / determinant;
+    const float fitted = inverse[u] + mw - a * mx - b * my;  // inverse depth of the plane at the pixel
+    // The plane n.X = D has inverse depth (n.ray) / D, so its normal can be read off the fit.
+    nx[u] = a * camera.fx;
+    ny[u] = b * camera.fy;
+    nz[u] = fitted + a * (camera.cx - static_cast<float>(u)) + b * (camera.cy - v);
+    depth[u] = 1 / fitted;
+    const float squares = std::max(0.f, ww[u] - n * mw * mw - a * cxw - b * cyw);
+    const float spread = 0.02f * (cxx + cyy) * (cxx + cyy);  // below: nearly a line of pixels
+    float sound = inverse[u] > 0 ? determinant - spread : -1.f;
+    sound = n >= static_cast<float>(kMinNeighbours) ? sound : -1.f;
+    sound = fitted > 0.2f * inverse[u] ? sound : -1.f;
+    const float rms = std::sqrt(squares / std::max(1.f, n - 3)) / (inverse[u] * inverse[u]);
+    residual[u] = sound > 0 ? rms : -1.f;
+  }
 }
 
 /// The median residual in each range of depth; ranges with little data take their neighbour's.
@@ -106,12 +153,10 @@ NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& resid
 
 void estimate_normals(Scene::Data& scene, int threads) {
   const size_t pixels = scene.depth.size();
-  std::vector<float> inverse(pixels), tolerance(pixels);
-  for (size_t i = 0; i < pixels; ++i) {
-    inverse[i] = scene.depth[i] > 0 ? 1 / scene.depth[i] : 0.f;
-    // A slope s changes the inverse depth by s / (f z) a pixel.
-    tolerance[i] = inverse[i] * kMaxSlope / static_cast<float>(scene.camera.fx);
-  }
+  const InverseDepth inverse(scene);
+  // A slope s changes the inverse depth by s / (f z) a pixel.
+  const Intrinsics intrinsics(scene.camera);
+  const float slope = kMaxSlope / static_cast<float>(scene.camera.fx);
   scene.normals.assign(pixels, Eigen::Vector3f::Zero());
   scene.smooth_depth.assign(pixels, 0.f);
 
@@ -119,14 +164,21 @@ void estimate_normals(Scene::Data& scene, int threads) {
   const size_t jobs = static_cast<size_t>((scene.height + kRowsPerJob - 1) / kRowsPerJob);
   parallel_for(jobs, threads, [&](size_t job) {
     RowSums sums(static_cast<size_t>(scene.width));
+    RowPlanes planes(static_cast<size_t>(scene.width));
     const int first = static_cast<int>(job) * kRowsPerJob, last = std::min(scene.height, first + kRowsPerJob);
     for (int v = first; v < last; ++v) {
       sums.clear();
       for (int dv : kOffsets)
-        if (v + dv >= 0 && v + dv < scene.height)
-          for (int du : kOffsets) add_neighbours(scene, inverse, tolerance, v, du, dv, sums);
-      for (int u = 0; u < scene.width; ++u)
-        residuals[scene.index(u, v)] = fit_plane(scene, sums, inverse[scene.index(u, v)], u, v);
+        add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope, sums);
+      fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics, planes);
+      for (size_t u = 0; u < static_cast<size_t>(scene.width); ++u) {
+        if (planes.residual[u] < 0) continue;
+        const size_t at = scene.index(static_cast<int>(u), v);
+        // n.X > 0 points away from the camera
+        scene.normals[at] = -Eigen::Vector3f(planes.x[u], planes.y[u], planes.z[u]).normalized();
+        scene.smooth_depth[at] = planes.depth[u];
+        residuals[at] = planes.residual[u];
+      }
     }
   });
   scene.noise = noise_curve(scene, residuals);

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -22,8 +23,11 @@ struct NoiseCurve {
       0.05f;                         ///< [m] start of the first bin; each bin spans a factor of sqrt(2)
   std::array<float, kBins> sigma{};  ///< [m]
 
-  static int bin(float z) {
-    return std::clamp(static_cast<int>(2 * std::log2(std::max(z, kNearest) / kNearest)), 0, kBins - 1);
+  static int bin(float z) {  // floor(2 log2(z / kNearest)), read off the float's exponent and mantissa
+    const uint32_t bits = std::bit_cast<uint32_t>(std::max(z, kNearest) / kNearest);
+    constexpr uint32_t kSqrt2 = 0x3504f3;  // mantissa of sqrt(2)
+    const int octave = static_cast<int>(bits >> 23) - 127;
+    return std::min(2 * octave + ((bits & 0x7fffff) >= kSqrt2 ? 1 : 0), kBins - 1);
   }
   float at(float z) const { return sigma[bin(z)]; }
 };

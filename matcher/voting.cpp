@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "matcher/pair_feature.h"
+#include "matcher/feature_batch.h"
 #include "matcher/parallel.h"
+#include "matcher/partner_search.h"
+#include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
@@ -28,6 +30,14 @@ Bins bins_of(float value, float border, uint32_t size) {
   return {{own, own}, 1};
 }
 
+/// The largest sum of two neighbouring entries of an accumulator's row.
+EDGEPOSE_WIDE_SIMD uint32_t highest_pair(const uint16_t* row) {
+  uint16_t highest = static_cast<uint16_t>(row[kAlphaBins - 1] + row[0]);
+  for (uint32_t a = 0; a + 1 < kAlphaBins; ++a)
+    highest = std::max(highest, static_cast<uint16_t>(row[a] + row[a + 1]));
+  return highest;
+}
+
 /// Everything one thread needs to vote for one reference after the other.
 class Accumulator {
  public:
@@ -39,16 +49,19 @@ class Accumulator {
                   h.angle_bins};
   }
 
-  void vote_for(const std::vector<OrientedPoint>& points, uint32_t reference, float border) {
+  void vote_for(const PartnerSearch& partners, const OrientedPoint& reference, float border) {
     std::fill(votes_.begin(), votes_.end(), uint16_t{0});
     const float reach = static_cast<float>(view_.header->diameter);
-    const OrientedPoint& r = points[reference];
-    const ReferenceFrame frame(r);
-    for (uint32_t s = 0; s < points.size(); ++s) {
-      const float squared = (points[s].position - r.position).squaredNorm();
-      if (squared > reach * reach || s == reference || squared <= 0) continue;
-      vote_pair(quantiser_.feature(r, points[s], std::sqrt(squared)), frame.alpha(points[s].position),
-                border);
+    const ReferenceFrame frame(reference);
+    partners.runs_near(reference.position, runs_);
+    for (const PartnerSearch::Run& run : runs_) {
+      batch_.compute(reference, frame, partners.points(), run, quantiser_);
+      for (size_t i = 0; i < run.second - run.first; ++i) {
+        const float squared = batch_.squared_distance[i];
+        if (squared > reach * reach || squared <= 0) continue;  // zero: the reference itself
+        vote_pair({batch_.distance[i], batch_.angle_reference[i], batch_.angle_second[i], batch_.angle_normals[i]},
+                  static_cast<uint16_t>(batch_.alpha[i]), border);
+      }
     }
     for (uint32_t bucket : flagged_) flags_[bucket] = 0;
     flagged_.clear();
@@ -63,12 +76,12 @@ class Accumulator {
     std::vector<Peak> top(best.size());
     for (uint32_t m = 0; m < view_.points.size(); ++m) {
       const uint16_t* row = votes_.data() + size_t{m} * kAlphaBins;
+      if (highest_pair(row) <= top.back().votes) continue;
       Peak peak{0, m, 0};
       for (uint32_t a = 0; a < kAlphaBins; ++a) {
         const uint32_t sum = uint32_t{row[a]} + row[(a + 1) & (kAlphaBins - 1)];
         if (sum > peak.votes) peak.votes = sum, peak.alpha = a;
       }
-      if (peak.votes <= top.back().votes) continue;
       top.back() = peak;
       for (size_t k = top.size() - 1; k > 0 && top[k].votes > top[k - 1].votes; --k)
         std::swap(top[k], top[k - 1]);
@@ -127,12 +140,15 @@ class Accumulator {
   FeatureQuantiser quantiser_{};
   std::vector<uint16_t> votes_;
   std::vector<uint32_t> flags_, flagged_;
+  std::vector<PartnerSearch::Run> runs_;
+  FeatureBatch batch_;
 };
 
 }  // namespace
 
 std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
-                                 const std::vector<uint32_t>& references, const VotingOptions& options) {
+                                 const PartnerSearch& partners, const std::vector<uint32_t>& references,
+                                 const VotingOptions& options) {
   const size_t peaks = static_cast<size_t>(options.peaks_per_reference);
   std::vector<PoseHypothesis> hypotheses(references.size() * peaks);
   const size_t chunks =
@@ -140,7 +156,7 @@ std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedP
   parallel_for(chunks, options.threads, [&](size_t chunk) {
     Accumulator accumulator(model);
     for (size_t i = chunk; i < references.size(); i += chunks) {
-      accumulator.vote_for(points, references[i], options.border);
+      accumulator.vote_for(partners, points[references[i]], options.border);
       accumulator.peaks(points[references[i]], std::span(hypotheses).subspan(i * peaks, peaks));
     }
   });

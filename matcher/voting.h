@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "matcher/model_block.h"
+#include "matcher/partner_search.h"
 #include "matcher/types.h"
 
 namespace edgepose {
@@ -21,8 +22,10 @@ struct VotingOptions {
 
 /// Votes in (model point, alpha) for each reference (paper Sec. 3.2; duplicate flags of Hinterstoisser et al.
 /// 2016) and returns the peaks, `peaks_per_reference` for each reference in order.
-/// `points`: all scene points, camera frame; `references`: indices into them.
+/// `points`: all scene points, camera frame; `partners`: the same, prepared for a reach of the model's diameter;
+/// `references`: indices into the points.
 std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
-                                 const std::vector<uint32_t>& references, const VotingOptions& options);
+                                 const PartnerSearch& partners, const std::vector<uint32_t>& references,
+                                 const VotingOptions& options);
 
 }  // namespace edgepose
