@@ -77,14 +77,14 @@ Iteration accumulate(const Scene::Data& scene, const Model::View& model, const P
     const OrientedPoint& m = model.dense_points[i];
     const Eigen::Vector3f p = pose * m.position;
     const int64_t pixel = projection.pixel(p);
-    if (pixel < 0 || scene.smooth_depth[pixel] <= 0) return;
+    if (pixel < 0) return;
     const Eigen::Vector3f normal = pose.rotation * m.normal;
     const Eigen::Vector3f q = scene.depth[pixel] * projection.ray(pixel);
     const Eigen::Vector3f gap = q - p;
     if (gap.squaredNorm() > 4 * max_distance * max_distance) return;
     const float residual = normal.dot(gap);
     if (std::abs(residual) > max_distance) return;
-    const float cosine = normal.dot(scene.normals[pixel]);
+    const float cosine = normal.dot(scene.normals[pixel]);  // 0 where nothing was fitted
     if (cosine < options.min_normal_cosine) return;
     const float r = residual / max_distance;
     const float tukey = (1 - r * r) * (1 - r * r);

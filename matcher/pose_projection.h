@@ -51,8 +51,8 @@ struct PixelProjection {
     return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
   }
   Eigen::Vector3f ray(int64_t pixel_index) const {
-    const int64_t column = pixel_index % width, row = pixel_index / width;
-    const auto u = static_cast<float>(column), v = static_cast<float>(row);
+    const auto index = static_cast<uint32_t>(pixel_index), columns = static_cast<uint32_t>(width);
+    const auto u = static_cast<float>(index % columns), v = static_cast<float>(index / columns);
     return {(u - cx) / fx, (v - cy) / fy, 1.f};
   }
 

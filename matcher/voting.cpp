@@ -16,6 +16,7 @@ namespace {
 constexpr int kAlphaBits = 5;  // 32 bins of 11.25 degrees
 constexpr uint32_t kAlphaBins = 1u << kAlphaBits;
 constexpr int kAlphaShift = 16 - kAlphaBits;
+constexpr size_t kAhead = 12;  // visits between asking for a bucket and using it
 
 /// Buckets a feature votes in along one dimension: its own and perhaps a neighbour.
 struct Bins {
@@ -38,7 +39,20 @@ EDGEPOSE_WIDE_SIMD uint32_t highest_pair(const uint16_t* row) {
   return highest;
 }
 
-/// Everything one thread needs to vote for one reference after the other.
+/// A feature that votes: a bucket of the table and the scene's alpha.
+struct Visit {
+  uint32_t bucket;
+  uint16_t alpha;
+};
+
+/// The entries of a bucket that get a vote.
+struct Hit {
+  uint32_t begin, end;
+  uint16_t alpha;
+};
+
+/// Everything one thread needs to vote for one reference after the other. Works through long lists step by
+/// step instead of pair by pair, so that the table's cache lines are on their way before they are needed.
 class Accumulator {
  public:
   explicit Accumulator(const Model& model)
@@ -51,19 +65,15 @@ class Accumulator {
 
   void vote_for(const PartnerSearch& partners, const OrientedPoint& reference, float border) {
     std::fill(votes_.begin(), votes_.end(), uint16_t{0});
-    const float reach = static_cast<float>(view_.header->diameter);
     const ReferenceFrame frame(reference);
     partners.runs_near(reference.position, runs_);
     for (const PartnerSearch::Run& run : runs_) {
       batch_.compute(reference, frame, partners.points(), run, quantiser_);
-      for (size_t i = 0; i < run.second - run.first; ++i) {
-        const float squared = batch_.squared_distance[i];
-        if (squared > reach * reach || squared <= 0) continue;  // zero: the reference itself
-        vote_pair({batch_.distance[i], batch_.angle_reference[i], batch_.angle_second[i], batch_.angle_normals[i]},
-                  static_cast<uint16_t>(batch_.alpha[i]), border);
-      }
+      list_visits(run.second - run.first, border);
+      list_hits();
+      vote();
     }
-    for (uint32_t bucket : flagged_) flags_[bucket] = 0;
+    for (const uint32_t bucket : flagged_) flags_[bucket] = 0;
     flagged_.clear();
   }
 
@@ -92,36 +102,60 @@ class Accumulator {
   }
 
  private:
-  void vote_pair(const PairFeature& f, uint16_t alpha_scene, float border) {
-    const Bins normals = bins_of(f.angle_normals, border, quantiser_.angle_bins);
-    const Bins distance = bins_of(f.distance, border, quantiser_.distance_bins);
-    const Bins first = bins_of(f.angle_reference, border, quantiser_.angle_bins);
-    const Bins second = bins_of(f.angle_second, border, quantiser_.angle_bins);
-    for (int n = 0; n < normals.count; ++n) {
-      if (normals.bin[n] < view_.header->normal_bin_first || normals.bin[n] > view_.header->normal_bin_last)
-        continue;
-      for (int d = 0; d < distance.count; ++d)
-        for (int a = 0; a < first.count; ++a)
-          for (int b = 0; b < second.count; ++b)
-            vote_bucket(quantiser_.bucket(distance.bin[d], first.bin[a], second.bin[b], normals.bin[n]),
-                        alpha_scene);
+  /// The buckets that the batch's features fall into, or nearly.
+  void list_visits(size_t pairs, float border) {
+    visits_.clear();
+    const float reach = static_cast<float>(view_.header->diameter);
+    for (size_t i = 0; i < pairs; ++i) {
+      const float squared = batch_.squared_distance[i];
+      if (squared > reach * reach || squared <= 0) continue;  // zero: the reference itself
+      const Bins normals = bins_of(batch_.angle_normals[i], border, quantiser_.angle_bins);
+      const Bins distance = bins_of(batch_.distance[i], border, quantiser_.distance_bins);
+      const Bins first = bins_of(batch_.angle_reference[i], border, quantiser_.angle_bins);
+      const Bins second = bins_of(batch_.angle_second[i], border, quantiser_.angle_bins);
+      const auto alpha = static_cast<uint16_t>(batch_.alpha[i]);
+      for (int n = 0; n < normals.count; ++n) {
+        if (normals.bin[n] < view_.header->normal_bin_first || normals.bin[n] > view_.header->normal_bin_last)
+          continue;
+        for (int d = 0; d < distance.count; ++d)
+          for (int a = 0; a < first.count; ++a)
+            for (int b = 0; b < second.count; ++b)
+              visits_.push_back(
+                  {quantiser_.bucket(distance.bin[d], first.bin[a], second.bin[b], normals.bin[n]), alpha});
+      }
     }
   }
 
-  void vote_bucket(uint32_t bucket, uint16_t alpha_scene) {
-    const uint32_t begin = view_.offsets[bucket], end = view_.offsets[bucket + 1];
-    if (begin == end) return;
-    // Like pairs at like alpha vote once (Hinterstoisser et al. 2016): planes and dense areas repeat them.
-    const uint32_t bit = 1u << (alpha_scene >> kAlphaShift);
-    uint32_t& flags = flags_[bucket];
-    if (flags & bit) return;
-    if (flags == 0) flagged_.push_back(bucket);
-    flags |= bit;
-    for (uint32_t e = begin; e < end; ++e) {
-      const PairEntry entry = view_.entries[e];
-      const uint32_t alpha = static_cast<uint16_t>(alpha_scene - entry.alpha) >> kAlphaShift;
-      ++votes_[(uint32_t{entry.reference} << kAlphaBits) + alpha];
+  /// Looks the buckets up. Like pairs at like alpha vote once (Hinterstoisser et al. 2016): planes and dense
+  /// areas repeat them.
+  void list_hits() {
+    hits_.resize(visits_.size());
+    size_t count = 0;
+    for (size_t i = 0; i < visits_.size(); ++i) {
+      const Visit ahead = visits_[std::min(i + kAhead, visits_.size() - 1)];
+      __builtin_prefetch(&view_.offsets[ahead.bucket]);
+      __builtin_prefetch(&flags_[ahead.bucket], 1);
+      const auto [bucket, alpha] = visits_[i];
+      const uint32_t begin = view_.offsets[bucket], end = view_.offsets[bucket + 1];
+      if (begin == end) continue;
+      const uint32_t bit = 1u << (alpha >> kAlphaShift);
+      uint32_t& flags = flags_[bucket];
+      if (flags & bit) continue;
+      if (flags == 0) flagged_.push_back(bucket);
+      flags |= bit;
+      __builtin_prefetch(&view_.entries[begin]);
+      hits_[count++] = {begin, end, alpha};
     }
+    hits_.resize(count);
+  }
+
+  void vote() {
+    for (const Hit& hit : hits_)
+      for (uint32_t e = hit.begin; e < hit.end; ++e) {
+        const PairEntry entry = view_.entries[e];
+        const uint32_t alpha = static_cast<uint16_t>(hit.alpha - entry.alpha) >> kAlphaShift;
+        ++votes_[(uint32_t{entry.reference} << kAlphaBits) + alpha];
+      }
   }
 
   PoseHypothesis pose(const ReferenceFrame& scene_frame, uint32_t point, uint32_t alpha_bin,
@@ -142,6 +176,8 @@ class Accumulator {
   std::vector<uint32_t> flags_, flagged_;
   std::vector<PartnerSearch::Run> runs_;
   FeatureBatch batch_;
+  std::vector<Visit> visits_;
+  std::vector<Hit> hits_;
 };
 
 }  // namespace
