@@ -5,6 +5,7 @@
 #include "matcher/free_space.h"
 #include "matcher/icp.h"
 #include "matcher/match.h"
+#include "matcher/pose_comparison.h"
 #include "matcher/voting.h"
 
 namespace edgepose {
@@ -16,6 +17,7 @@ struct Candidate {
   float score = 0;       ///< orders candidates (rank_score)
   float surface = 0;     ///< orders them by how much surface there is
   float confidence = 0;  ///< [0, 1]
+  int sightings = 1;     ///< batches of references that led to it, each by itself
   IcpResult icp;
   FreeSpaceEvidence evidence;
 };
@@ -44,7 +46,7 @@ class CandidateSearch {
   const VerificationSettings& settings(const PoseF& pose) const;
 
  private:
-  void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& ranked,
+  void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& found,
                  MatchResult& result) const;
   VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;
   void examine(Candidate& c, const FreeSpaceOptions& how) const;
@@ -55,6 +57,7 @@ class CandidateSearch {
   const Model& model_;
   const std::vector<OrientedPoint>& points_;
   PartnerSearch partners_;
+  PoseComparison comparison_;
   const MatchOptions& options_;
   std::array<VerificationSettings, NoiseCurve::kBins> settings_;  // by depth
 };

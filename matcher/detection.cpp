@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "matcher/clustering.h"
 #include "matcher/paper_verification.h"
+#include "matcher/pose_comparison.h"
 
 namespace edgepose {
 namespace {
@@ -21,24 +21,6 @@ RigidTransform to_rigid(const PoseF& pose) {
   t.linear() = Eigen::Quaterniond(pose.rotation.cast<double>()).normalized().toRotationMatrix();
   t.translation() = pose.translation.cast<double>();
   return t;
-}
-
-/// The smallest rotation that `a` and `b` differ by when the model's symmetries are used up.
-float symmetric_angle(const Symmetries& symmetries, const Eigen::Matrix3f& a, const Eigen::Matrix3f& b) {
-  float angle = angle_between(a, b);
-  for (const RigidTransform& s : symmetries.discrete)
-    angle = std::min(angle, angle_between(a * s.linear().cast<float>(), b));
-  for (const SymmetryAxis& axis : symmetries.continuous) {
-    const Eigen::Vector3f direction = axis.direction.cast<float>();
-    angle = std::min(angle, std::acos(std::clamp((a * direction).dot(b * direction), -1.f, 1.f)));
-  }
-  return angle;
-}
-
-bool clearly_different(const Model& model, const PoseF& a, const PoseF& b) {
-  const Eigen::Vector3f centre = model.centre().cast<float>();
-  return (a * centre - b * centre).norm() > kDifferentDistance * static_cast<float>(model.diameter()) ||
-         symmetric_angle(model.symmetries(), a.rotation, b.rotation) > kDifferentAngle;
 }
 
 /// Inverse of the information; directions that nothing holds get the variance of a guess (a tenth of the
@@ -83,6 +65,7 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
   const Model::View& view = model.view();
   const float d = static_cast<float>(model.diameter());
   const SceneEdges edges(scene, 0.01f * d, d / 32);
+  const PoseComparison comparison(model);
   const NearModel near_model(view, options.paper.edge_distance * d);
   std::vector<Detection> detections;
   std::vector<uint32_t> explained;
@@ -106,7 +89,7 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
     detection.votes = c.votes;
     detection.covariance = covariance(c.icp, model.diameter());
     const auto rival = std::find_if(ranked.begin(), ranked.end(), [&](const Candidate& other) {
-      return clearly_different(model, c.pose, other.pose);
+      return !comparison.alike(c.pose, other.pose, kDifferentDistance, kDifferentAngle);
     });
     detection.margin = c.confidence - (rival == ranked.end() ? 0 : rival->confidence);
     for (const RigidTransform& symmetry : model.symmetries().discrete)

@@ -25,8 +25,8 @@ float continued_depth(const Scene::Data& scene, int u, int v, int nu, int nv) {
   return normal.dot(scene.smooth_point(u, v)) / slant;
 }
 
-/// Marks the pixels of row v near which something could be an outline: a hole, or a step that is large enough,
-/// in one of the four directions. Few pixels are left to look at closely.
+/// Marks the pixels of row v near which something could be an outline: a hole, or a step that is large
+/// enough, in one of the four directions. Few pixels are left to look at closely.
 EDGEPOSE_WIDE_SIMD void mark_steps(const float* centre, std::array<const float*, 2 * kGap> rows, int width,
                                    float jump_for_depth, uint8_t* marked) {
   for (int u = kGap; u < width - kGap; ++u) {

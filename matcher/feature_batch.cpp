@@ -7,7 +7,7 @@ namespace {
 
 /// Everything about the reference as plain numbers, so that no Eigen type enters the loop.
 struct ReferenceNumbers {
-  float x, y, z, nx, ny, nz;  // position [m] and normal
+  float x, y, z, nx, ny, nz;     // position [m] and normal
   float ux, uy, uz, vx, vy, vz;  // the frame's axes in the tangent plane
   float inverse_distance_step, inverse_angle_step;
 };
@@ -43,8 +43,9 @@ EDGEPOSE_WIDE_SIMD void compute_features(ReferenceNumbers r, Partners p, size_t 
 
 }  // namespace
 
-void FeatureBatch::compute(const OrientedPoint& reference, const ReferenceFrame& frame, const PointArrays& points,
-                           PartnerSearch::Run run, const FeatureQuantiser& quantiser) {
+void FeatureBatch::compute(const OrientedPoint& reference, const ReferenceFrame& frame,
+                           const PointArrays& points, PartnerSearch::Run run,
+                           const FeatureQuantiser& quantiser) {
   const size_t count = run.second - run.first, at = run.first;
   if (squared_distance.size() < count) {
     for (auto* values : {&squared_distance, &distance, &angle_reference, &angle_second, &angle_normals})

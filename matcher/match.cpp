@@ -16,7 +16,7 @@
 namespace edgepose {
 namespace {
 
-constexpr size_t kMinReferences = 450,
+constexpr size_t kMinReferences = 600,
                  kMaxReferences = 900;  // few suffice in a large scene, a small one needs more than its share
 
 /// A seeded random subset, so that every prefix is spread over the scene.
@@ -39,6 +39,7 @@ std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& m
   sampling.keep_edges = options.edge_sampling;
   sampling.max_pixel_size = d / 32;
   sampling.max_noise = 0.012f * d;
+  sampling.threads = options.threads;
   std::vector<OrientedPoint> points;
   for (const SampledPoint& p :
        drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads))

@@ -23,8 +23,8 @@ struct Intrinsics {
         cy(static_cast<float>(c.cy)) {}
 };
 
-/// Sums of the least-squares fit w = a du + b dv + c for each pixel of a row; structure of arrays, so that the
-/// compiler vectorises over the pixels.
+/// Sums of the least-squares fit w = a du + b dv + c for each pixel of a row; structure of arrays, so that
+/// the compiler vectorises over the pixels.
 struct RowSums {
   explicit RowSums(size_t width)
       : n(width),
@@ -55,7 +55,9 @@ struct InverseDepth {
       for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
     }
   }
-  const float* row(int v) const { return values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin; }
+  const float* row(int v) const {
+    return values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
+  }
 
   static constexpr int kMargin = kOffsets.back();
   size_t stride;
@@ -64,8 +66,8 @@ struct InverseDepth {
 
 /// Adds the six neighbours in row v + dv of every pixel of row v, those that lie on the same surface.
 /// `slope`: largest change of inverse depth for each pixel and unit of inverse depth.
-EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* other, int width, float dv, float slope,
-                                          RowSums& sums) {
+EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* other, int width, float dv,
+                                          float slope, RowSums& sums) {
   float *n = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
         *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
         *yw = sums.yw.data(), *ww = sums.ww.data();
@@ -169,7 +171,8 @@ void estimate_normals(Scene::Data& scene, int threads) {
     for (int v = first; v < last; ++v) {
       sums.clear();
       for (int dv : kOffsets)
-        add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope, sums);
+        add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope,
+                          sums);
       fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics, planes);
       for (size_t u = 0; u < static_cast<size_t>(scene.width); ++u) {
         if (planes.residual[u] < 0) continue;

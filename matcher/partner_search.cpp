@@ -26,8 +26,10 @@ PartnerSearch::PartnerSearch(const std::vector<OrientedPoint>& points, float rea
   for (uint32_t i : order) {
     const OrientedPoint& p = points[i];
     keys_.push_back(key[i]);
-    sorted_.x.push_back(p.position.x()), sorted_.y.push_back(p.position.y()), sorted_.z.push_back(p.position.z());
-    sorted_.nx.push_back(p.normal.x()), sorted_.ny.push_back(p.normal.y()), sorted_.nz.push_back(p.normal.z());
+    sorted_.x.push_back(p.position.x()), sorted_.y.push_back(p.position.y()),
+        sorted_.z.push_back(p.position.z());
+    sorted_.nx.push_back(p.normal.x()), sorted_.ny.push_back(p.normal.y()),
+        sorted_.nz.push_back(p.normal.z());
   }
 }
 
@@ -40,7 +42,8 @@ void PartnerSearch::runs_near(const Eigen::Vector3f& centre, std::vector<Run>& r
       from = std::lower_bound(from, keys_.end(), cell_key(z + dz, y + dy, x - kCellsPerReach));
       const auto to = std::upper_bound(from, keys_.end(), cell_key(z + dz, y + dy, x + kCellsPerReach));
       if (from == to) continue;
-      runs.emplace_back(static_cast<uint32_t>(from - keys_.begin()), static_cast<uint32_t>(to - keys_.begin()));
+      runs.emplace_back(static_cast<uint32_t>(from - keys_.begin()),
+                        static_cast<uint32_t>(to - keys_.begin()));
       from = to;
     }
 }

@@ -1,15 +1,21 @@
 #include "matcher/scene_sampling.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "matcher/parallel.h"
 #include "matcher/point_grid.h"
+#include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
+
+constexpr size_t kStrips = 8;       // of the image; fixed, so that the result does not depend on the threads
+constexpr float kAreaUnit = 1e-4f;  // [d^2]
+constexpr float kMaxPatchArea = 1e5f;  // [kAreaUnit d^2] keeps the sum of thousands in range
 
 /// Points of one cell with like normals, summed up.
 struct Cluster {
@@ -66,7 +72,8 @@ class NormalClusterGrid {
 
   uint32_t& find(uint64_t key) {
     if (used_ * 2 > keys_.size()) grow();
-    size_t slot = (key * 0x9e3779b97f4a7c15ull >> 20) & (keys_.size() - 1);
+    // The product's highest bits are the ones that all of the key takes part in.
+    size_t slot = key * 0x9e3779b97f4a7c15ull >> (64 - std::bit_width(keys_.size() - 1));
     while (keys_[slot] != key && keys_[slot] != kNoKey) slot = (slot + 1) & (keys_.size() - 1);
     if (keys_[slot] == kNoKey) keys_[slot] = key, ++used_;
     return heads_[slot];
@@ -88,19 +95,23 @@ class NormalClusterGrid {
   size_t used_ = 0;
 };
 
-/// The finest level: every pixel with a normal, thinned where the pixels are much denser than the grid.
-NormalClusterGrid finest_level(const Scene::Data& scene, const SamplingOptions& options) {
+/// Pixels between two that are looked at: less than each where they are much denser than the finest grid.
+int pixel_stride(const Scene::Data& scene, float step) {
   std::vector<float> depths;
   for (size_t i = 0; i < scene.smooth_depth.size(); i += 101)
     if (scene.smooth_depth[i] > 0) depths.push_back(scene.smooth_depth[i]);
-  float near = 0.5f;
-  if (!depths.empty()) {
-    std::nth_element(depths.begin(), depths.begin() + static_cast<long>(depths.size() / 4), depths.end());
-    near = depths[depths.size() / 4];
-  }
-  const int stride = std::clamp(static_cast<int>(options.step / 2 / scene.pixel_size(near) / 2), 1, 8);
-  NormalClusterGrid grid(options.step / 2, options.fine_theta_deg, 16384);
-  for (int v = stride / 2; v < scene.height; v += stride)
+  if (depths.empty()) return 1;
+  const auto quarter = depths.begin() + static_cast<long>(depths.size() / 4);
+  std::nth_element(depths.begin(), quarter, depths.end());
+  return std::clamp(static_cast<int>(step / 4 / scene.pixel_size(*quarter)), 1, 8);
+}
+
+/// The finest level: the pixels with a normal in some rows.
+std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene,
+                                                         const SamplingOptions& options, int stride,
+                                                         int first_row, int last_row) {
+  NormalClusterGrid grid(options.step / 2, options.fine_theta_deg, 2048);
+  for (int v = first_row; v < last_row; v += stride)
     for (int u = stride / 2; u < scene.width; u += stride) {
       const size_t at = scene.index(u, v);
       const float z = scene.smooth_depth[at];
@@ -111,13 +122,71 @@ NormalClusterGrid finest_level(const Scene::Data& scene, const SamplingOptions& 
       const float side = scene.pixel_size(z) * static_cast<float>(stride);
       grid.add({{z * ray, normal}, side * side / slant, scene.edges[at] != EdgeKind::kNone}, 1);
     }
-  return grid;
+  return grid.take();
+}
+
+/// The finest level of the whole image, in strips that threads share; what strips have in common merges in
+/// the next level.
+std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene,
+                                                         const SamplingOptions& options) {
+  const int stride = pixel_stride(scene, options.step);
+  const int rows = (scene.height - stride / 2 + stride - 1) / stride;
+  std::vector<std::vector<std::pair<SampledPoint, float>>> strips(kStrips);
+  parallel_for(kStrips, options.threads, [&](size_t s) {
+    const auto row = [&](size_t strip) {
+      return stride / 2 + stride * static_cast<int>(static_cast<size_t>(rows) * strip / kStrips);
+    };
+    strips[s] = finest_level(scene, options, stride, row(s), std::min(row(s + 1), scene.height));
+  });
+  std::vector<std::pair<SampledPoint, float>> points;
+  for (const auto& strip : strips) points.insert(points.end(), strip.begin(), strip.end());
+  return points;
+}
+
+/// Plane patches around a place, as structure of arrays. The area is a whole number, so that adding up in any
+/// order gives the same.
+struct Patches {
+  std::vector<float> x, y, z, nx, ny, nz;
+  std::vector<int32_t> area;  // [kAreaUnit d^2]
+
+  void add(const SampledPoint& p, float area_units) {
+    x.push_back(p.surface.position.x()), y.push_back(p.surface.position.y()),
+        z.push_back(p.surface.position.z());
+    nx.push_back(p.surface.normal.x()), ny.push_back(p.surface.normal.y()),
+        nz.push_back(p.surface.normal.z());
+    area.push_back(static_cast<int32_t>(area_units));
+  }
+};
+
+/// Where the plane of a point is looked for.
+struct PlaneQuery {
+  float x, y, z, nx, ny, nz;  // the point and its normal
+  float tolerance;            // [m] from the plane
+  float reach;                // [m] from the point
+  float cosine;               // of the angle between the normals, at least
+};
+
+/// Adds up the area of the patches that continue the plane.
+EDGEPOSE_WIDE_SIMD int32_t area_on_plane(const Patches& patches, PlaneQuery q) {
+  const float *x = patches.x.data(), *y = patches.y.data(), *z = patches.z.data(), *nx = patches.nx.data(),
+              *ny = patches.ny.data(), *nz = patches.nz.data();
+  const int32_t* areas = patches.area.data();
+  const size_t count = patches.area.size();
+  int32_t area = 0;
+  for (size_t k = 0; k < count; ++k) {
+    const float dx = x[k] - q.x, dy = y[k] - q.y, dz = z[k] - q.z;
+    int32_t counted = std::abs(dx * q.nx + dy * q.ny + dz * q.nz) < q.tolerance ? areas[k] : 0;
+    counted = dx * dx + dy * dy + dz * dz < q.reach * q.reach ? counted : 0;
+    counted = nx[k] * q.nx + ny[k] * q.ny + nz[k] * q.nz > q.cosine ? counted : 0;
+    area += counted;
+  }
+  return area;
 }
 
 }  // namespace
 
 std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingOptions& options) {
-  const auto fine = finest_level(scene, options).take();
+  const auto fine = finest_level(scene, options);
   const float middle_theta = options.fine_theta_deg * options.theta_factor;
   const float coarse_theta = middle_theta * options.theta_factor;
 
@@ -146,6 +215,7 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
   constexpr float kReach = 1.25f;      // [d] how far around a point its plane is followed
   constexpr float kMaxObjectArea = 1;  // [d^2] a plane face of an object covers at most pi / 4
   constexpr float kCosine = 0.97f;     // 14 degrees
+  const float area_unit = kAreaUnit * diameter * diameter;
   NormalClusterGrid grid(kPatch * diameter, 10, points.size() / 4);
   for (const SampledPoint& p : points) grid.add(p, p.area);
   std::vector<SampledPoint> patches;
@@ -166,22 +236,17 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
 
   std::vector<char> background(points.size(), 0);
   parallel_for(jobs.size(), threads, [&](size_t job) {
-    std::vector<SampledPoint> near;
+    Patches near;
     patch_grid.visit_near(points[jobs[job]->front()].surface.position, [&](uint32_t k) {
-      near.push_back(patches[k]);
+      near.add(patches[k], std::min(patches[k].area / area_unit, kMaxPatchArea));
       return true;
     });
     for (uint32_t i : *jobs[job]) {
-      const OrientedPoint& p = points[i].surface;
-      const float tolerance = 0.02f * diameter + 2 * noise.at(p.position.z());
-      float area = 0;
-      for (const SampledPoint& patch : near) {
-        const Eigen::Vector3f d = patch.surface.position - p.position;
-        if (std::abs(d.dot(p.normal)) < tolerance && d.squaredNorm() < reach * reach &&
-            patch.surface.normal.dot(p.normal) > kCosine)
-          area += patch.area;
-      }
-      background[i] = area > kMaxObjectArea * diameter * diameter;
+      const Eigen::Vector3f &p = points[i].surface.position, &n = points[i].surface.normal;
+      const float tolerance = 0.02f * diameter + 2 * noise.at(p.z());
+      const int32_t area =
+          area_on_plane(near, {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), tolerance, reach, kCosine});
+      background[i] = static_cast<float>(area) * kAreaUnit > kMaxObjectArea;
     }
   });
   std::vector<SampledPoint> kept;

@@ -24,7 +24,8 @@ struct SamplingOptions {
       0.005f;  ///< [m] what is so far away that a pixel spans more is left out: too coarse to match
   float max_noise = 0.003f;  ///< [m] what is measured worse than this is left out too
   bool keep_edges =
-      true;  ///< false: every point goes through the same levels up to `step` (no edge emphasis)
+      true;         ///< false: every point goes through the same levels up to `step` (no edge emphasis)
+  int threads = 0;  ///< 0 = all cores; the result does not depend on it
 };
 
 std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingOptions& options);

@@ -22,8 +22,8 @@ struct VotingOptions {
 
 /// Votes in (model point, alpha) for each reference (paper Sec. 3.2; duplicate flags of Hinterstoisser et al.
 /// 2016) and returns the peaks, `peaks_per_reference` for each reference in order.
-/// `points`: all scene points, camera frame; `partners`: the same, prepared for a reach of the model's diameter;
-/// `references`: indices into the points.
+/// `points`: all scene points, camera frame; `partners`: the same, prepared for a reach of the model's
+/// diameter; `references`: indices into the points.
 std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
                                  const PartnerSearch& partners, const std::vector<uint32_t>& references,
                                  const VotingOptions& options);

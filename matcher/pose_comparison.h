@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "matcher/model_block.h"
+#include "matcher/pose_projection.h"
+
+namespace edgepose {
+
+/// Tells whether two poses of a model are nearly the same, its symmetries used up.
+class PoseComparison {
+ public:
+  explicit PoseComparison(const Model& model);
+
+  /// True if the model's centre is less than `distance` [d] apart and the rest of the turn less than `angle`
+  /// [rad].
+  bool alike(const PoseF& a, const PoseF& b, float distance, float angle) const;
+
+ private:
+  float diameter_;
+  Eigen::Vector3f centre_;
+  std::vector<Eigen::Matrix3f> turns_;  // of the discrete symmetries, the identity first
+  std::vector<Eigen::Vector3f> axes_;   // of the continuous ones
+};
+
+}  // namespace edgepose
