@@ -31,8 +31,10 @@ std::vector<uint32_t> pick_references(const std::vector<OrientedPoint>& points, 
 }
 
 /// The scene's points for this model (paper Fig. 4), without the planes that are too large to be on it.
+/// What is measured too coarsely or too badly to be matched well is left out, unless there is nothing else.
 std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& model,
                                         const MatchOptions& options) {
+  constexpr size_t kEnough = 200;
   const float d = static_cast<float>(model.diameter());
   SamplingOptions sampling;
   sampling.step = static_cast<float>(model.view().header->sampling_step);
@@ -40,10 +42,18 @@ std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& m
   sampling.max_pixel_size = d / 32;
   sampling.max_noise = 0.012f * d;
   sampling.threads = options.threads;
+  const auto take = [&] {
+    return drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads);
+  };
+  std::vector<SampledPoint> samples = take();
+  if (samples.size() < kEnough) {
+    sampling.max_pixel_size = d / 12;
+    sampling.max_noise = 0.1f * d;
+    samples = take();
+  }
   std::vector<OrientedPoint> points;
-  for (const SampledPoint& p :
-       drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads))
-    points.push_back(p.surface);
+  points.reserve(samples.size());
+  for (const SampledPoint& p : samples) points.push_back(p.surface);
   return points;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <optional>
 
 #include "matcher/parallel.h"
 #include "matcher/wide_simd.h"
@@ -13,6 +15,10 @@ constexpr std::array<int, 6> kOffsets = {-5, -3, -1, 1, 3, 5};  // pixels
 constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that still is one surface (72 degrees)
 constexpr int kMinNeighbours = 12;  // of 36
 constexpr int kRowsPerJob = 8;
+constexpr int kNoiseStride = 5;          // pixels between two whose residuals are looked at
+constexpr size_t kMinNoiseSamples = 50;  // in a range of depth
+constexpr float kCorrelated =
+    2.5f;  // sensors smooth: neighbours differ by less than the error of the surface
 
 struct Intrinsics {
   float fx, fy, cx, cy;  // pixels
@@ -132,17 +138,53 @@ EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, in
   }
 }
 
-/// The median residual in each range of depth; ranges with little data take their neighbour's.
+/// The noise that neighbouring pixels alone show, without what curvature adds to a wide plane fit: from the
+/// second differences of depth, whose deviation is sqrt(6) times that of one pixel. The largest fifth, edges
+/// among them, is left out. Empty with too few values.
+std::optional<float> noise_of_differences(std::vector<float>& differences) {
+  constexpr float kKept = 0.8f;
+  constexpr float kTrimmedMean = 0.5586f;  // of |x| for the kept part of a standard normal distribution
+  if (differences.size() < kMinNoiseSamples) return std::nullopt;
+  const auto kept = static_cast<long>(kKept * static_cast<float>(differences.size()));
+  std::nth_element(differences.begin(), differences.begin() + kept, differences.end());
+  std::sort(differences.begin(), differences.begin() + kept);  // adding up in this order loses no bits
+  const float mean =
+      std::accumulate(differences.begin(), differences.begin() + kept, 0.f) / static_cast<float>(kept);
+  return mean / kTrimmedMean / std::sqrt(6.f);
+}
+
+/// Second differences of depth in both directions at a sample of the fitted pixels, by range of depth.
+std::array<std::vector<float>, NoiseCurve::kBins> second_differences(const Scene::Data& scene) {
+  std::array<std::vector<float>, NoiseCurve::kBins> samples;
+  for (int v = 1; v + 1 < scene.height; ++v)
+    for (int u = 1 + v % kNoiseStride; u + 1 < scene.width; u += kNoiseStride) {
+      const size_t at = scene.index(u, v), row = static_cast<size_t>(scene.width);
+      if (scene.smooth_depth[at] <= 0) continue;
+      const float z = scene.depth[at];
+      auto& bin = samples[NoiseCurve::bin(z)];
+      for (const auto& [before, after] : {std::pair{at - 1, at + 1}, {at - row, at + row}})
+        if (scene.depth[before] > 0 && scene.depth[after] > 0)
+          bin.push_back(std::abs(scene.depth[before] + scene.depth[after] - 2 * z));
+    }
+  return samples;
+}
+
+/// The median residual of the plane fits in each range of depth, but no more than a few times what
+/// neighbouring pixels differ by: a scene of small curved objects has no planes to read the noise from.
+/// Ranges with little data take their neighbour's.
 NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals) {
   std::array<std::vector<float>, NoiseCurve::kBins> samples;
-  for (size_t i = 0; i < residuals.size(); i += 5)
+  for (size_t i = 0; i < residuals.size(); i += kNoiseStride)
     if (residuals[i] >= 0) samples[NoiseCurve::bin(scene.depth[i])].push_back(residuals[i]);
+  auto differences = second_differences(scene);
   NoiseCurve curve;
   for (int b = 0; b < NoiseCurve::kBins; ++b) {
     auto& s = samples[b];
-    if (s.size() < 50) continue;
+    if (s.size() < kMinNoiseSamples) continue;
     std::nth_element(s.begin(), s.begin() + static_cast<long>(s.size() / 2), s.end());
     curve.sigma[b] = s[s.size() / 2];
+    if (const auto pixel_noise = noise_of_differences(differences[b]))
+      curve.sigma[b] = std::min(curve.sigma[b], kCorrelated * *pixel_noise);
   }
   for (int b = 1; b < NoiseCurve::kBins; ++b)
     if (curve.sigma[b] <= 0) curve.sigma[b] = curve.sigma[b - 1];
