@@ -59,7 +59,7 @@ PoseError::PoseError(const Mesh& mesh, bool symmetric, size_t max_points, uint64
     throw std::invalid_argument("pose error: expected a mesh with vertices, found none");
   Tree::Points points;
   for (size_t i : draw_indices(mesh.vertices.size(), max_points, seed))
-    points.list.push_back(mesh.vertices[i].cast<double>());
+    points.list.emplace_back(mesh.vertices[i].cast<double>());
   tree_ = std::make_unique<const Tree>(std::move(points));
 }
 PoseError::~PoseError() = default;

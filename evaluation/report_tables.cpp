@@ -83,9 +83,11 @@ std::string stage_table(const EvalReport& report) {
   Table table({"stage", "median, ms", "mean, ms", "share of the mean, %"});
   const auto& rows = report.evaluation.rows;
   std::vector<double> all;
+  all.reserve(rows.size());
   for (const EvalRow& row : rows) all.push_back(row.seconds);
   const auto add = [&](const char* name, auto&& time_of) {
     std::vector<double> times;
+    times.reserve(rows.size());
     for (const EvalRow& row : rows) times.push_back(time_of(row));
     const double total = mean(all);
     table.add({name, milliseconds(median(times)), milliseconds(mean(times)),

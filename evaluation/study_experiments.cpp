@@ -111,7 +111,7 @@ EvalOptions sweep_start(const EvalOptions& base) {
 }
 
 template <typename Set>
-Experiment sweep(const EvalOptions& base, std::string key, std::string label,
+Experiment sweep(const EvalOptions& base, const std::string& key, const std::string& label,
                  const std::vector<double>& values, int decimals, Set&& set) {
   Experiment experiment{
       .key = "sweep_" + key,

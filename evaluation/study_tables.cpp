@@ -21,6 +21,7 @@ std::vector<std::string> methods_of(const Experiment& experiment) {
 /// The columns of the ablation tables: groups of images, or objects.
 std::vector<std::string> column_names(const TestSet& set, int group_modulo) {
   std::vector<std::string> names;
+  if (group_modulo > 0) names.reserve(group_modulo);
   for (int i = 0; i < group_modulo; ++i) names.push_back(std::string("S").append(std::to_string(i + 1)));
   if (group_modulo <= 0)
     for (const TestObject& object : set.objects) names.push_back(harmless_text(object.name));

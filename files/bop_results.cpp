@@ -11,8 +11,8 @@ namespace edgepose {
 namespace {
 
 constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time";
-constexpr const char* kExpected = "a BOP result file (scene_id,im_id,obj_id,score,R,t,time)";
-constexpr size_t kMaxFileBytes = 1u << 30;
+constexpr const char* kExpectedResults = "a BOP result file (scene_id,im_id,obj_id,score,R,t,time)";
+constexpr size_t kMaxResultBytes = 1u << 30;
 
 std::string format_line(const BopResult& result) {
   std::vector<double> rotation, translation;
@@ -89,7 +89,7 @@ std::vector<BopResult> parse_bop_results(std::string_view text, const std::strin
 }
 
 std::vector<BopResult> read_bop_results(const std::filesystem::path& path) {
-  return parse_bop_results(read_whole_file(path, kExpected, kMaxFileBytes), path.string());
+  return parse_bop_results(read_whole_file(path, kExpectedResults, kMaxResultBytes), path.string());
 }
 
 }  // namespace edgepose

@@ -15,7 +15,7 @@
 namespace edgepose {
 namespace {
 
-constexpr const char* kExpected =
+constexpr const char* kExpectedCamera =
     "camera intrinsics (a BOP scene_camera.json or camera.json, a ROS camera_info YAML, or fx,fy,cx,cy)";
 constexpr size_t kMaxYamlBytes = 1u << 20;
 
@@ -74,7 +74,8 @@ CameraFile from_json(std::string_view text, const std::string& name, std::option
   const bool by_image =
       std::all_of(keys.begin(), keys.end(), [](const auto& key) { return identifier(key); });
   if (!by_image)
-    throw InputError::at(name, kExpected, "JSON with other members (" + edgepose::quoted(keys.front()) + ")");
+    throw InputError::at(name, kExpectedCamera,
+                         "JSON with other members (" + edgepose::quoted(keys.front()) + ")");
   return from_scene_camera(parse_bop_cameras(text, name), name, image_id);
 }
 
@@ -99,12 +100,12 @@ CameraFile parse_camera_values(std::string_view text) {
 
 CameraFile parse_camera_file(std::string_view text, const std::string& name, std::optional<int> image_id) {
   const std::string_view content = trim(text);
-  if (content.empty()) throw InputError::at(name, kExpected, "an empty file");
+  if (content.empty()) throw InputError::at(name, kExpectedCamera, "an empty file");
   if (content.front() == '{') return from_json(text, name, image_id);
   if (text.size() > kMaxYamlBytes)
-    throw InputError::at(name, kExpected, "a file of " + std::to_string(text.size()) + " bytes");
+    throw InputError::at(name, kExpectedCamera, "a file of " + std::to_string(text.size()) + " bytes");
   // Binary files are told at once: a YAML parser's complaint would help nobody.
-  if (text.find('\0') != std::string_view::npos) throw InputError::at(name, kExpected, "a binary file");
+  if (text.find('\0') != std::string_view::npos) throw InputError::at(name, kExpectedCamera, "a binary file");
   return parse_camera_info(text, name);
 }
 
@@ -112,7 +113,7 @@ CameraFile read_camera(const std::string& spec, std::optional<int> image_id) {
   std::error_code ignored;
   const bool is_file = std::filesystem::exists(spec, ignored);
   if (!is_file && spec.find(',') != std::string::npos) return parse_camera_values(spec);
-  return parse_camera_file(read_whole_file(spec, kExpected, kMaxJsonBytes), spec, image_id);
+  return parse_camera_file(read_whole_file(spec, kExpectedCamera, kMaxJsonBytes), spec, image_id);
 }
 
 }  // namespace edgepose

@@ -12,7 +12,7 @@
 namespace edgepose {
 namespace {
 
-constexpr const char* kExpected = "a ROS camera_info (camera_matrix: data: [9 values], or K: [9 values])";
+constexpr const char* kExpectedInfo = "a ROS camera_info (camera_matrix: data: [9 values], or K: [9 values])";
 
 /// The numbers of a list, or of the `data` list within (as camera_calibration writes matrices).
 std::vector<double> numbers(const YAML::Node& node, const std::string& where) {
@@ -52,7 +52,7 @@ std::optional<int> image_side(const YAML::Node& map, std::initializer_list<const
 
 CameraFile from_map(const YAML::Node& map, const std::string& name) {
   const auto [matrix, key] = first_of(map, {"camera_matrix", "K", "k"});
-  if (!matrix) throw InputError::at(name, kExpected, "neither camera_matrix nor K");
+  if (!matrix) throw InputError::at(name, kExpectedInfo, "neither camera_matrix nor K");
   CameraFile file;
   file.width = image_side(map, {"image_width", "width"}, name);
   file.height = image_side(map, {"image_height", "height"}, name);
@@ -78,10 +78,10 @@ CameraFile from_map(const YAML::Node& map, const std::string& name) {
 CameraFile parse_camera_info(std::string_view text, const std::string& name) {
   try {
     const YAML::Node root = YAML::Load(std::string(text));
-    if (!root.IsMap()) throw InputError::at(name, kExpected, "no YAML map");
+    if (!root.IsMap()) throw InputError::at(name, kExpectedInfo, "no YAML map");
     return from_map(root, name);
   } catch (const YAML::Exception& error) {
-    throw InputError::at(name, kExpected,
+    throw InputError::at(name, kExpectedInfo,
                          "line " + std::to_string(error.mark.line + 1) + ": " + printable(error.msg),
                          "the file is cut short or damaged, or is not YAML");
   }

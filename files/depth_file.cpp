@@ -11,20 +11,21 @@
 namespace edgepose {
 namespace {
 
-constexpr size_t kMaxFileBytes = 512u << 20;
+constexpr size_t kMaxDepthBytes = 512u << 20;
 // Deflate packs at most 1032 bytes into one; a file that claims more lies about its size.
 constexpr uint64_t kMaxPackingRatio = 1040;
-constexpr const char* kExpected = "a depth image (16-bit single-channel PNG)";
+constexpr const char* kExpectedDepth = "a depth image (16-bit single-channel PNG)";
 constexpr const char* kRawDepth = "give the raw depth image, not a colour or preview image";
 
 png::Header checked_header(std::span<const std::byte> bytes, const std::string& name) {
-  if (bytes.empty()) throw InputError::at(name, kExpected, "an empty file");
+  if (bytes.empty()) throw InputError::at(name, kExpectedDepth, "an empty file");
   const std::string foreign = png::foreign_format(bytes);
-  if (!foreign.empty()) throw InputError::at(name, kExpected, foreign, kRawDepth);
+  if (!foreign.empty()) throw InputError::at(name, kExpectedDepth, foreign, kRawDepth);
   png::Header header;
-  if (!png::read_header(bytes, header)) throw InputError::at(name, kExpected, "a PNG cut short or damaged");
+  if (!png::read_header(bytes, header))
+    throw InputError::at(name, kExpectedDepth, "a PNG cut short or damaged");
   if (header.bits != 16 || header.colour != 0)
-    throw InputError::at(name, kExpected, png::describe(header), kRawDepth);
+    throw InputError::at(name, kExpectedDepth, png::describe(header), kRawDepth);
   const uint64_t pixels = uint64_t{header.width} * header.height;
   if (header.width == 0 || header.height == 0 || header.width > kMaxDepthSide ||
       header.height > kMaxDepthSide || pixels > kMaxDepthPixels)
@@ -80,7 +81,7 @@ DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& 
 }
 
 DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale) {
-  const std::string bytes = read_whole_file(path, kExpected, kMaxFileBytes);
+  const std::string bytes = read_whole_file(path, kExpectedDepth, kMaxDepthBytes);
   return parse_depth_png(std::as_bytes(std::span(bytes)), path.string(), depth_scale);
 }
 

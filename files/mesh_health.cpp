@@ -61,9 +61,10 @@ void count_normals(const Mesh& mesh, const MeshSurvey& survey, MeshHealth& healt
 void add_warnings(const Mesh& mesh, const MeshSurvey& survey, MeshHealth& health) {
   std::vector<std::string>& warnings = health.warnings;
   if (health.is_cloud && !survey.has_normals) {
-    warnings.push_back("a cloud without triangles and without normals: which side is outside is not known");
+    warnings.emplace_back(
+        "a cloud without triangles and without normals: which side is outside is not known");
   } else if (health.is_cloud) {
-    warnings.push_back("a cloud without triangles: the surface between the points is not known");
+    warnings.emplace_back("a cloud without triangles: the surface between the points is not known");
   }
   if (!mesh.normals.empty() && !survey.has_normals) {
     warnings.push_back(std::to_string(mesh.normals.size()) + " normals for " +

@@ -91,7 +91,7 @@ void mend_normals(const MeshSurvey& survey, MeshHealth& health, Mesh& mesh) {
   if (health.opposed_normals) {
     mended.push_back("turned " + counted(health.opposed_normals, "normal") + " to the side of the surface");
   }
-  if (survey.cloud_inverted) mended.push_back("turned all normals: they pointed inwards");
+  if (survey.cloud_inverted) mended.emplace_back("turned all normals: they pointed inwards");
   if (health.non_unit_normals)
     mended.push_back("gave " + counted(health.non_unit_normals, "normal") + " unit length");
 }
@@ -104,7 +104,7 @@ void settle_cloud_normals(MeshHealth& health, std::vector<bool>& keep, Mesh& clo
   for (size_t i = 0; i < keep.size(); ++i) any = any || (keep[i] && !cloud.normals[i].isZero());
   if (!any) {
     cloud.normals.clear();
-    health.mended.push_back("dropped the normals: none had a direction");
+    health.mended.emplace_back("dropped the normals: none had a direction");
     return;
   }
   for (size_t i = 0; i < keep.size(); ++i) keep[i] = keep[i] && !cloud.normals[i].isZero();

@@ -50,9 +50,9 @@ class ObjReader {
     const std::string_view keyword = next_token(line);
     if (keyword.empty() || keyword[0] == '#') return;
     if (keyword == "v") {
-      vertices_.push_back((read_vector(line) * scale_).cast<float>());
+      vertices_.emplace_back((read_vector(line) * scale_).cast<float>());
     } else if (keyword == "vn") {
-      normals_.push_back(read_vector(line).cast<float>());
+      normals_.emplace_back(read_vector(line).cast<float>());
     } else if (keyword == "f" || keyword == "fo") {
       read_face(line);
     } else if (keyword.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789") !=

@@ -35,8 +35,9 @@ void check_room(const PcdHeader& header, size_t least_point_size, size_t bytes, 
 }
 
 void add_point(const double (&value)[6], const WantedFields& wanted, double scale, Mesh& mesh) {
-  mesh.vertices.push_back((Eigen::Vector3d(value[0], value[1], value[2]) * scale).cast<float>());
-  if (wanted.has_normals) mesh.normals.push_back(Eigen::Vector3d(value[3], value[4], value[5]).cast<float>());
+  mesh.vertices.emplace_back((Eigen::Vector3d(value[0], value[1], value[2]) * scale).cast<float>());
+  if (wanted.has_normals)
+    mesh.normals.emplace_back(Eigen::Vector3d(value[3], value[4], value[5]).cast<float>());
 }
 
 void read_text(TextCursor cursor, const PcdHeader& header, const WantedFields& wanted, double scale,

@@ -139,7 +139,7 @@ PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& 
     } else if (keyword == "element") {
       header.elements.push_back(parse_element(cursor, rest));
       if (header.find(header.elements.back().name) != &header.elements.back()) {
-        cursor.fail("each element once", quoted(header.elements.back().name) + " twice");
+        cursor.fail("each element once", edgepose::quoted(header.elements.back().name) + " twice");
       }
       if (header.elements.size() > kMostElements) cursor.fail("at most 100 elements", "more");
     } else if (keyword == "property") {
@@ -147,7 +147,7 @@ PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& 
       PlyElement& element = header.elements.back();
       element.properties.push_back(parse_property(cursor, rest));
       if (element.find(element.properties.back().name) + 1 != static_cast<int>(element.properties.size())) {
-        cursor.fail("each property once", quoted(element.properties.back().name) + " twice");
+        cursor.fail("each property once", edgepose::quoted(element.properties.back().name) + " twice");
       }
       if (element.properties.size() > kMostProperties) cursor.fail("at most 1000 properties", "more");
     } else {

@@ -28,8 +28,8 @@ void read_vertices(Body& body, const PlyElement& element, double scale, Mesh& me
         skip_property(body, element.properties[p]);
       }
     }
-    mesh.vertices.push_back((Eigen::Vector3d(value[0], value[1], value[2]) * scale).cast<float>());
-    if (has_normals) mesh.normals.push_back(Eigen::Vector3d(value[3], value[4], value[5]).cast<float>());
+    mesh.vertices.emplace_back((Eigen::Vector3d(value[0], value[1], value[2]) * scale).cast<float>());
+    if (has_normals) mesh.normals.emplace_back(Eigen::Vector3d(value[3], value[4], value[5]).cast<float>());
   }
 }
 

@@ -47,7 +47,7 @@ class DepthBuffer {
       for (int x = left; x <= right; ++x, weight_b += step_b, weight_c += step_c) {
         if (!(weight_b >= 0 && weight_c >= 0 && weight_b + weight_c <= 1)) continue;
         const double z = a.z() + weight_b * ab.z() + weight_c * ac.z();
-        const size_t pixel = static_cast<size_t>(y * kSize + x);
+        const size_t pixel = static_cast<size_t>(y) * kSize + static_cast<size_t>(x);
         if (z <= depth_[pixel]) continue;
         depth_[pixel] = z;
         side_[pixel] = side;

@@ -1,7 +1,6 @@
 #include "files/vertex_weld.h"
 
 #include <bit>
-#include <cstring>
 
 namespace edgepose {
 namespace {
@@ -15,7 +14,9 @@ uint64_t hash(const Eigen::Vector3f& vertex) {
 }
 
 bool same_bits(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::memcmp(a.data(), b.data(), 3 * sizeof(float)) == 0;
+  // Bits, not values: NaN must find itself, or a slot would never be found again.
+  const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
+  return bits(a.x()) == bits(b.x()) && bits(a.y()) == bits(b.y()) && bits(a.z()) == bits(b.z());
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ cv::Rect Canvas::find_place(const cv::Size& box, const cv::Point2d& anchor) cons
       for (int turn = 0; turn < 24; ++turn) {
         const int half = (turn + 1) / 2 * (turn % 2 ? 1 : -1);
         const double angle = half * std::numbers::pi / 12 - std::numbers::pi / 2;
-        const cv::Rect rect =
-            place((box.width / 2 + 12 * ring) * std::cos(angle), (box.height + 12 * ring) * std::sin(angle));
+        const int across = box.width / 2 + 12 * ring, along = box.height + 12 * ring;
+        const cv::Rect rect = place(across * std::cos(angle), along * std::sin(angle));
         if (!overlaps(labels_, rect) && (may_cover || !overlaps(kept_clear_, rect))) return rect;
       }
     }

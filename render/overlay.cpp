@@ -224,8 +224,8 @@ RgbImage draw_overlay(const DepthImage& whole_image, const Camera& whole_camera,
   }
   // Last, so that nothing is drawn over what is read.
   for (const cv::Rect& box : boxes) canvas.keep_clear(box);
-  for (size_t i = 0; i < poses.size(); ++i) {
-    for (const OverlayTarget& target : poses[i].targets) draw_target(canvas, poses[i].camera_T_model, target);
+  for (const OverlayPose& pose : poses) {
+    for (const OverlayTarget& target : pose.targets) draw_target(canvas, pose.camera_T_model, target);
   }
   for (size_t i = 0; i < poses.size(); ++i) {
     canvas.label(poses[i].label, cv::Point2d(boxes[i].x + boxes[i].width / 2.0, boxes[i].y), colours[i],

@@ -41,21 +41,21 @@ Eigen::Vector3d ray(const Camera& camera, int u, int v) {
 /// noise goes on beyond the border, so that the variance is the same everywhere.
 std::vector<float> correlated_noise(int width, int height, double radius, uint64_t seed, int threads) {
   const int reach = static_cast<int>(std::ceil(3 * radius));
-  std::vector<double> window(static_cast<size_t>(2 * reach + 1));
+  std::vector<double> window(2 * reach + 1);
   double squares = 0;
   for (int i = -reach; i <= reach; ++i) {
-    window[static_cast<size_t>(i + reach)] = std::exp(-0.5 * i * i / (radius * radius));
-    squares += window[static_cast<size_t>(i + reach)] * window[static_cast<size_t>(i + reach)];
+    window[i + reach] = std::exp(-0.5 * i * i / (radius * radius));
+    squares += window[i + reach] * window[i + reach];
   }
   for (double& weight : window) weight /= std::sqrt(squares);
 
-  const auto padded_height = static_cast<size_t>(height + 2 * reach), columns = static_cast<size_t>(width);
+  const size_t padded_height = height + 2 * reach, columns = width;
   std::vector<float> across(padded_height * columns), result(static_cast<size_t>(height) * columns);
-  parallel_for(static_cast<size_t>(height + 2 * reach), threads, [&](size_t line) {
+  parallel_for(padded_height, threads, [&](size_t line) {
     const int row = static_cast<int>(line);
     std::vector<double> white(columns + static_cast<size_t>(2 * reach));
     for (int u = -reach; u < width + reach; ++u) {
-      white[static_cast<size_t>(u + reach)] = PixelRandom(seed, u, row - reach).normal(kCorrelated);
+      white[u + reach] = PixelRandom(seed, u, row - reach).normal(kCorrelated);
     }
     for (size_t u = 0; u < columns; ++u) {
       double sum = 0;

@@ -12,19 +12,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool measured(float depth) { return depth > 0 && std::isfinite(depth); }
+bool has_depth(float depth) { return depth > 0 && std::isfinite(depth); }
 
 /// Mean depth of the pixels about (u, v) that lie on the same surface: less noise, the same edges.
 float smoothed(const DepthImage& image, int u, int v) {
   const float here = image.at(u, v);
-  if (!measured(here)) return 0;
+  if (!has_depth(here)) return 0;
   constexpr int kReach = 2;
   const float gate = 0.015f * here;
   float sum = 0, weights = 0;
   for (int y = std::max(0, v - kReach); y <= std::min(image.height - 1, v + kReach); ++y) {
     for (int x = std::max(0, u - kReach); x <= std::min(image.width - 1, u + kReach); ++x) {
       const float difference = std::abs(image.at(x, y) - here) / gate;
-      if (!measured(image.at(x, y)) || difference >= 1) continue;
+      if (!has_depth(image.at(x, y)) || difference >= 1) continue;
       const float weight =
           (1 - difference * difference) / static_cast<float>(1 + (x - u) * (x - u) + (y - v) * (y - v));
       sum += weight * image.at(x, y);
@@ -38,7 +38,7 @@ float smoothed(const DepthImage& image, int u, int v) {
 std::pair<float, float> depth_scale(const DepthImage& image) {
   std::vector<float> depths;
   for (const float depth : image.depth) {
-    if (measured(depth)) depths.push_back(depth);
+    if (has_depth(depth)) depths.push_back(depth);
   }
   if (depths.empty()) return {0.0f, 1.0f};
   const auto rank = [&](size_t percent) {
@@ -70,7 +70,7 @@ double brightness(const DepthImage& image, const Camera& camera, int u, int v) {
     Vector3d sum = Vector3d::Zero();
     for (const int side : {-1, 1}) {
       const int x = u + side * du, y = v + side * dv;
-      if (x < 0 || y < 0 || x >= image.width || y >= image.height || !measured(image.at(x, y))) continue;
+      if (x < 0 || y < 0 || x >= image.width || y >= image.height || !has_depth(image.at(x, y))) continue;
       if (std::abs(image.at(x, y) - image.at(u, v)) > 0.02f * image.at(u, v)) continue;
       sum += side * (point(x, y) - here);
     }
@@ -97,14 +97,15 @@ RgbImage shade_depth(const DepthImage& image, const Camera& camera, int scale) {
     for (int u = 0; u < image.width; ++u)
       smooth.at(u, static_cast<int>(row)) = smoothed(image, u, static_cast<int>(row));
   });
-  const auto [near, far] = depth_scale(smooth);
+  const std::pair<float, float> ends = depth_scale(smooth);
+  const float near = ends.first, far = ends.second;  // a structured binding is not for capture in clang 14
   cv::Mat shaded(image.height, image.width, CV_8UC3);
   parallel_for(static_cast<size_t>(image.height), 0, [&](size_t row) {
     const int v = static_cast<int>(row);
     for (int u = 0; u < image.width; ++u) {
       auto& pixel = shaded.at<cv::Vec3b>(v, u);
       pixel = {14, 15, 18};
-      if (!measured(smooth.at(u, v))) continue;
+      if (!has_depth(smooth.at(u, v))) continue;
       const double nearness = static_cast<double>((far - smooth.at(u, v)) / (far - near));
       const double light = 0.22 + 0.78 * std::pow(brightness(smooth, camera, u, v), 1.3);
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<uint8_t>(ramp(nearness)[c] * light);

@@ -11,7 +11,7 @@
 namespace edgepose {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kEvalExamples = R"(Examples:
   edgepose eval data/range --results range.csv
   edgepose eval data/industrial --all-models --results found.csv --report report/
   edgepose eval data/spine --group-by-modulo 3 --images 0-8
@@ -80,7 +80,7 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("--group-by-modulo", command->group_modulo, "Recall also by image number modulo this")
       ->check(CLI::Range(1, 1000));
   eval->add_option("--report", command->report, "Folder for report.md and its plots (needs gnuplot)");
-  eval->footer(kExamples);
+  eval->footer(kEvalExamples);
   eval->callback([command] { command->run(); });
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kInfoExamples = R"(Examples:
   edgepose info bolt.model
   edgepose info bolt.model --json
   edgepose info bolt.stl --unit mm      (is the mesh sound, before it is trained?))";
@@ -120,7 +120,7 @@ void add_info_command(CLI::App& app) {
   info->add_option("FILE", command->file, "Model, mesh or cloud")->required();
   add_unit_option(*info, "--unit", command->unit, "a mesh");
   info->add_flag("--json", command->as_json, "Print JSON");
-  info->footer(kExamples);
+  info->footer(kInfoExamples);
   info->callback([command] { command->run(); });
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kMatchExamples = R"(Examples:
   edgepose match bolt.model --depth frame.png --intrinsics 600,600,319.5,239.5
   edgepose match bolt.model nut.model --depth 000003.png --intrinsics scene_camera.json --json
   edgepose match bolt.model --depth frame.png --intrinsics camera_info.yaml --overlay found.png
@@ -160,7 +160,7 @@ void add_match_command(CLI::App& app) {
   match->add_option("--config", command->config, "TOML file with any option (config/edgepose.toml)");
   match->add_option("--threads", command->threads, "Threads; 0 = all cores; never changes the result")
       ->check(CLI::Range(0, kMaxThreads));
-  match->footer(kExamples);
+  match->footer(kMatchExamples);
   match->callback([command] { command->run(); });
 }
 

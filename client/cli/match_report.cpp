@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <ostream>
 
 #include "client/cli/text.h"
@@ -68,8 +67,6 @@ double worst_sigma(const Eigen::Matrix<double, 6, 6>& covariance, Eigen::Index f
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 void print_detection(std::ostream& out, const std::string& name, const Detection& detection, double seconds) {
   const Eigen::Vector3d t = 1e3 * detection.camera_T_model.translation();

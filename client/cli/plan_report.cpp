@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <ostream>
 
 #include "client/cli/text.h"
@@ -14,8 +13,6 @@ namespace {
 
 using nlohmann::json;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -40,7 +41,7 @@ class Bar {
   std::string remaining(double share) const {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     if (share < 0.02 || elapsed < 1) return "";
-    return ", " + std::to_string(static_cast<long>(elapsed * (1 - share) / share + 0.5)) + " s left";
+    return ", " + std::to_string(std::lround(elapsed * (1 - share) / share)) + " s left";
   }
 
   void erase() {

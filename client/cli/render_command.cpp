@@ -21,7 +21,7 @@
 namespace edgepose {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     R"(Writes OUT.png (16 bit) and, beside it, OUT_camera.json (as BOP's camera.json, for match --intrinsics) and
 OUT_truth.json (as BOP's scene_gt.json; render --scene reads it again). The camera looks along z, x is right,
 y is down.
@@ -127,6 +127,7 @@ void RenderCommand::run(bool image_given) const {
   write_file_atomically(beside(output, "_truth.json"), scene_file_text(placed, output.parent_path()));
   if (!overlay.empty()) {
     std::vector<OverlayPose> poses_drawn;
+    poses_drawn.reserve(placed.size());
     for (const PlacedMesh& object : placed) {
       poses_drawn.push_back(
           {&loaded.at(object.mesh), object.camera_T_model, object.mesh.stem().string(), {}, {}});
@@ -174,7 +175,7 @@ void add_render_command(CLI::App& app) {
   render->add_option("--overlay", command->overlay, "Also draw the objects' outlines over the depth image");
   render->add_option("--threads", command->threads, "Threads; 0 = all cores; never changes the result")
       ->check(CLI::Range(0, 256));
-  render->footer(kExamples);
+  render->footer(kRenderExamples);
   render->callback([command, image] { command->run(image->count() > 0); });
 }
 

@@ -13,7 +13,7 @@
 namespace edgepose {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kStudyExamples = R"(Examples:
   edgepose study data/spine --experiment sampling --group-by-modulo 3
   edgepose study data/range --report study_range/
   edgepose study data/range --experiment noise,verification --images 0-9
@@ -76,7 +76,7 @@ void add_study_command(CLI::App& app) {
       app.add_subcommand("study", "Run the paper's experiments on a test set: tables and plots");
   command->input.add_options(*study);
   std::vector<std::string> known = experiment_names();
-  known.push_back("all");
+  known.emplace_back("all");
   study
       ->add_option("--experiment", command->names,
                    "Which: noise, sampling, verification, early-exit, sweep, all")
@@ -87,7 +87,7 @@ void add_study_command(CLI::App& app) {
                    "Columns are image numbers modulo this, not objects")
       ->check(CLI::Range(1, 1000));
   study->add_option("--report", command->report, "Folder for study.md and its plots (needs gnuplot)");
-  study->footer(kExamples);
+  study->footer(kStudyExamples);
   study->callback([command] { command->run(); });
 }
 

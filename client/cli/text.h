@@ -1,7 +1,11 @@
 #pragma once
+#include <numbers>
 #include <string>
 
 namespace edgepose {
+
+/// One radian, in the degrees that people read.
+inline constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);

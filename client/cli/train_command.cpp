@@ -18,7 +18,7 @@
 namespace edgepose {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kTrainExamples = R"(Examples:
   edgepose train bolt.stl -o bolt.model
   edgepose train scan.ply --unit m -o scan.model --name scan
   edgepose train models/obj_000003.ply -o can.model --symmetries models/models_info.json --object-id 3)";
@@ -84,7 +84,7 @@ void add_train_command(CLI::App& app) {
   CLI::Option* threads =
       train->add_option("--threads", command->threads, "Threads; 0 = all cores; never changes the result")
           ->check(CLI::Range(0, kMaxThreads));
-  train->footer(kExamples);
+  train->footer(kTrainExamples);
   train->callback([command, threads] { command->run(threads->count() > 0); });
 }
 
