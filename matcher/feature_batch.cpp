@@ -16,12 +16,12 @@ struct Partners {
   const float *x, *y, *z, *nx, *ny, *nz;
 };
 
-struct Features {
+struct FeatureColumns {
   float *squared, *distance, *first, *second, *normals;
   int32_t* alpha;
 };
 
-EDGEPOSE_WIDE_SIMD void compute_features(ReferenceNumbers r, Partners p, size_t count, Features out) {
+EDGEPOSE_WIDE_SIMD void compute_features(ReferenceNumbers r, Partners p, size_t count, FeatureColumns out) {
 #pragma GCC ivdep
   for (size_t i = 0; i < count; ++i) {
     const float dx = r.x - p.x[i], dy = r.y - p.y[i], dz = r.z - p.z[i];  // d = p_r - p_s
