@@ -10,8 +10,8 @@
 namespace edgepose {
 namespace {
 
-// Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely.
-constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500;
+// Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely, reported.
+constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500, kAllPoints = 1 << 20;
 constexpr size_t kBatch = 75;             // references voted for before the next look at the candidates
 constexpr size_t kCoarseCandidates = 20;  // of each batch that are refined coarsely ...
 constexpr size_t kFineCandidates = 4;     // ... and finely
@@ -123,6 +123,15 @@ Candidate CandidateSearch::finish(const PoseF& pose, float votes) const {
   return one[0];
 }
 
+Candidate CandidateSearch::polish(const Candidate& candidate) const {
+  Candidate polished = candidate;
+  const VerificationSettings& s = settings(candidate.pose);
+  polished.icp = refine_pose(scene_, model_.view(), candidate.pose, s.last_icp);
+  polished.pose = polished.icp.camera_T_model;
+  examine(polished, s.full);
+  return polished;
+}
+
 void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& found,
                                 MatchResult& result) const {
   Stopwatch watch;
@@ -179,6 +188,10 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
   s.fine_icp.max_distance = 0.025f * d + 2 * noise;
   s.fine_icp.min_distance = 0.008f * d + 2 * noise;
   s.fine_icp.outline_sigma_pixels = 4;
+  s.last_icp = s.fine_icp;
+  s.last_icp.max_points = kAllPoints;
+  s.last_icp.iterations = 8;
+  s.last_icp.max_distance = s.last_icp.min_distance = s.fine_icp.min_distance;
   return s;
 }
 

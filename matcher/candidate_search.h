@@ -26,7 +26,7 @@ struct Candidate {
 /// the candidate is.
 struct VerificationSettings {
   FreeSpaceOptions quick, middle, full;
-  IcpOptions first_icp, coarse_icp, fine_icp;
+  IcpOptions first_icp, coarse_icp, fine_icp, last_icp;
 };
 
 /// The search of the default mode: votes, clusters, verifies and refines for a batch of references after the
@@ -42,6 +42,9 @@ class CandidateSearch {
 
   /// Refines one pose finely and looks at it in full.
   Candidate finish(const PoseF& pose, float votes) const;
+
+  /// Refines what is to be reported once more, with every point of the model.
+  Candidate polish(const Candidate& candidate) const;
 
   const VerificationSettings& settings(const PoseF& pose) const;
 

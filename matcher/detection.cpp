@@ -14,7 +14,8 @@ constexpr int kCell = 6;            // pixels
 constexpr float kSameThing = 0.5f;  // share of common cells above which two poses explain the same thing
 constexpr float kDifferentDistance = 0.1f;  // [d] poses farther apart than this ...
 constexpr float kDifferentAngle = 0.26f;    // ... or turned by more than 15 degrees are clearly different
-constexpr double kCorrelation = 9;  // neighbouring pixels err together: this many count as one measurement
+constexpr double kCorrelation = 2;  // neighbouring pixels err together: this many count as one measurement
+constexpr double kLeastSigma = 1e-4;  // [d] no mesh is truer to its object than this
 
 RigidTransform to_rigid(const PoseF& pose) {
   RigidTransform t = RigidTransform::Identity();
@@ -23,10 +24,12 @@ RigidTransform to_rigid(const PoseF& pose) {
   return t;
 }
 
-/// Inverse of the information; directions that nothing holds get the variance of a guess (a tenth of the
-/// diameter, 0.3 rad) instead of infinity.
+/// Inverse of the information, scaled to the residuals that are really there; directions that nothing holds get
+/// the variance of a guess (a tenth of the diameter, 0.3 rad) instead of infinity.
 Eigen::Matrix<double, 6, 6> covariance(const IcpResult& icp, double diameter) {
-  Eigen::Matrix<double, 6, 6> information = icp.information / kCorrelation;
+  const double sigma = std::max(static_cast<double>(icp.rms), kLeastSigma * diameter);
+  const double assumed = icp.surface_sigma;
+  Eigen::Matrix<double, 6, 6> information = icp.information * (assumed * assumed) / (sigma * sigma * kCorrelation);
   information.diagonal().head<3>().array() += 1 / (0.3 * 0.3);
   information.diagonal().tail<3>().array() += 1 / (0.01 * diameter * diameter);
   return information.inverse();
@@ -69,8 +72,9 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
   const NearModel near_model(view, options.paper.edge_distance * d);
   std::vector<Detection> detections;
   std::vector<uint32_t> explained;
-  for (const Candidate& c : ranked) {
+  for (const Candidate& found : ranked) {
     if (detections.size() >= static_cast<size_t>(options.max_instances)) break;
+    const Candidate c = options.refine ? search.polish(found) : found;
     const bool accepted =
         options.verification != Verification::kFreeSpace || c.confidence >= options.accept_score;
     if (!detections.empty() && (!accepted || options.verification != Verification::kFreeSpace)) continue;

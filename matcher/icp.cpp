@@ -128,6 +128,7 @@ IcpResult refine_pose(const Scene::Data& scene, const Model::View& model, const 
                       const IcpOptions& options) {
   IcpResult result;
   result.camera_T_model = start;
+  result.surface_sigma = options.surface_sigma;
   const Eigen::Vector3f model_centre = box_centre(*model.header);
   const double radius = model.header->diameter / 4;
   for (int i = 0; i < options.iterations; ++i) {

@@ -19,6 +19,7 @@ struct IcpResult {
   /// Sum of J^T J / sigma^2 at the end, for a twist (rotation, translation) about the model's centre, camera
   /// axes.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  float surface_sigma = 1;  ///< [m] the sigma of surface correspondences in `information`
   int correspondences = 0;
   float rms = 0;  ///< [m] of the surface correspondences along the normals
 };
