@@ -60,7 +60,7 @@ Experiment sampling(const EvalOptions& base) {
     for (bool edges : {false, true}) {
       Variant variant{edges ? "edges kept" : "normal clusters only", "", 0, with(base, verification)};
       variant.method.append(", verified by ").append(name);
-      variant.options.match.edge_sampling = edges;
+      variant.options.match.sampling.keep_edges = edges;
       experiment.variants.push_back(std::move(variant));
     }
   return experiment;

@@ -12,12 +12,6 @@ namespace {
 
 // Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely, reported.
 constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500, kAllPoints = 1 << 20;
-constexpr size_t kBatch = 75;             // references voted for before the next look at the candidates
-constexpr size_t kCoarseCandidates = 20;  // of each batch that are refined coarsely ...
-constexpr size_t kFineCandidates = 4;     // ... and finely
-// Confidence that ends the search, by how many batches have led to the same pose, each by itself: a wrong
-// pose seldom wins twice. No recall was lost on any set, at half the time (docs/matcher.md).
-constexpr std::array<float, 3> kSureScore = {0.995f, 0.8f, 0.6f};
 constexpr float kLikeDistance = 0.02f, kLikeAngle = 0.05f;  // [d], [rad] poses closer than this are one
 
 /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
@@ -38,9 +32,12 @@ void rank(std::vector<Candidate>& candidates) {
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
-bool beyond_doubt(const Candidate& best) {
-  const size_t sightings = std::min(static_cast<size_t>(best.sightings), kSureScore.size());
-  return best.confidence > kSureScore[sightings - 1];
+/// A wrong pose seldom wins in several batches, so the more have led to it, the less sure it must be.
+bool beyond_doubt(const Candidate& best, const SearchOptions& options) {
+  const float sure = best.sightings == 1   ? options.sure_once
+                     : best.sightings == 2 ? options.sure_twice
+                                           : options.sure_thrice;
+  return best.confidence > sure;
 }
 
 /// Keeps the best `count` by score and as many more by surface; ranked.
@@ -103,12 +100,15 @@ CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model,
 std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references,
                                             MatchResult& result) const {
   std::vector<Candidate> candidates;
-  for (size_t begin = 0; begin < references.size(); begin += kBatch) {
-    const size_t end = std::min(references.size(), begin + kBatch);
+  const auto size = static_cast<size_t>(options_.search.batch);
+  for (size_t begin = 0; begin < references.size(); begin += size) {
+    const size_t end = std::min(references.size(), begin + size);
     add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(end)},
               candidates, result);
     // More instances may come with more references.
-    if (options_.max_instances == 1 && !candidates.empty() && beyond_doubt(candidates.front())) break;
+    if (options_.max_instances == 1 && !candidates.empty() &&
+        beyond_doubt(candidates.front(), options_.search))
+      break;
   }
   return candidates;
 }
@@ -117,29 +117,23 @@ Candidate CandidateSearch::finish(const PoseF& pose, float votes) const {
   std::vector<Candidate> one(1);
   one[0].pose = pose;
   one[0].votes = votes;
-  if (options_.refine) refine(one, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
-  if (options_.refine) refine(one, &VerificationSettings::fine_icp, &VerificationSettings::full);
-  if (!options_.refine) examine(one[0], settings(pose).full);
+  refine(one, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
+  refine(one, &VerificationSettings::fine_icp, &VerificationSettings::full);
   return one[0];
 }
 
 Candidate CandidateSearch::polish(const Candidate& candidate) const {
-  Candidate polished = candidate;
-  const VerificationSettings& s = settings(candidate.pose);
-  polished.icp = refine_pose(scene_, model_.view(), candidate.pose, s.last_icp);
-  polished.pose = polished.icp.camera_T_model;
-  examine(polished, s.full);
-  return polished;
+  std::vector<Candidate> one = {candidate};
+  refine(one, &VerificationSettings::last_icp, &VerificationSettings::full);
+  return one[0];
 }
 
 void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& found,
                                 MatchResult& result) const {
   Stopwatch watch;
-  VotingOptions voting;
-  voting.threads = options_.threads;
-  auto hypotheses = vote(model_, points_, partners_, references, voting);
+  auto hypotheses = vote(model_, points_, partners_, references, options_.voting, options_.threads);
   result.times.voting += watch.lap();
-  const auto clusters = cluster_poses(std::move(hypotheses), model_, {});
+  const auto clusters = cluster_poses(std::move(hypotheses), model_, options_.clustering);
   result.candidates += clusters.size();
   result.times.clustering += watch.lap();
 
@@ -150,48 +144,52 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
       batch[i].votes = clusters[i].votes;
       // A few steps first: a pose just voted for is off by some hundredths of the diameter, too much to be
       // judged.
-      batch[i].pose =
-          refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp).camera_T_model;
+      if (options_.refinement.enabled)
+        batch[i].pose = refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp)
+                            .camera_T_model;
       examine(batch[i], settings(batch[i].pose).quick);
     }
   });
-  keep_promising(batch, kCoarseCandidates);
+  keep_promising(batch, static_cast<size_t>(options_.search.coarse_candidates));
   result.times.verification += watch.lap();
 
   refine(batch, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
-  keep_promising(batch, kFineCandidates);
+  keep_promising(batch, static_cast<size_t>(options_.search.fine_candidates));
   refine(batch, &VerificationSettings::fine_icp, &VerificationSettings::full);
   merge_batch(found, batch, comparison_);
   result.times.refinement += watch.lap();
 }
 
 VerificationSettings CandidateSearch::settings_for(float noise, const std::array<float, 3>& typical) const {
+  const ToleranceOptions& t = options_.tolerance;
+  const RefinementOptions& r = options_.refinement;
   const float d = static_cast<float>(model_.diameter());
-  const float tolerance = std::min(0.012f * d + 2 * noise, 0.03f * d);
+  const float tolerance = std::min(t.surface * d + t.noise_factor * noise, t.max_surface * d);
+  const float shallow = t.shallow_depth * d, cosine = t.min_normal_cosine;
   VerificationSettings s;
-  s.quick = {2 * tolerance, 0.1f * d, d, typical[0], 0.5f, kQuickPoints, false};
-  s.middle = {1.5f * tolerance, 0.1f * d, d, typical[1], 0.6f, kMiddlePoints, true};
-  s.full = {tolerance, 0.1f * d, d, typical[2], 0.6f, kFullPoints, true};
+  s.quick = {2 * tolerance, shallow, d, typical[0], cosine - 0.1f, kQuickPoints, false};
+  s.middle = {1.5f * tolerance, shallow, d, typical[1], cosine, kMiddlePoints, true};
+  s.full = {tolerance, shallow, d, typical[2], cosine, kFullPoints, true};
   s.first_icp.max_points = kQuickPoints;
-  s.first_icp.iterations = 3;
+  s.first_icp.iterations = r.first_iterations;
   s.first_icp.max_distance = 0.08f * d;
   s.first_icp.min_distance = 0.05f * d;
   s.first_icp.outline = false;
-  s.coarse_icp.max_points = 200;
-  s.coarse_icp.iterations = 6;
+  s.coarse_icp.max_points = kQuickPoints;
+  s.coarse_icp.iterations = r.coarse_iterations;
   s.coarse_icp.max_distance = 0.06f * d;
   s.coarse_icp.min_distance = 0.02f * d + 2 * noise;
   s.coarse_icp.surface_sigma = std::max(noise, 0.002f * d);
   s.fine_icp = s.coarse_icp;
-  s.fine_icp.max_points = 1500;
-  s.fine_icp.iterations = 10;
+  s.fine_icp.max_points = kFullPoints;
+  s.fine_icp.iterations = r.fine_iterations;
   s.fine_icp.max_distance = 0.025f * d + 2 * noise;
   s.fine_icp.min_distance = 0.008f * d + 2 * noise;
-  s.fine_icp.outline_sigma_pixels = 4;
+  s.fine_icp.outline_sigma_pixels = r.outline_sigma;
   s.last_icp = s.fine_icp;
   s.last_icp.max_points = kAllPoints;
-  s.last_icp.iterations = 8;
-  s.last_icp.max_distance = s.last_icp.min_distance = s.fine_icp.min_distance;
+  s.last_icp.iterations = r.last_iterations;
+  s.last_icp.max_distance = s.fine_icp.min_distance;
   return s;
 }
 
@@ -211,8 +209,10 @@ void CandidateSearch::refine(std::vector<Candidate>& candidates, IcpOptions Veri
                              FreeSpaceOptions VerificationSettings::*how) const {
   parallel_for(candidates.size(), options_.threads, [&](size_t i) {
     const VerificationSettings& s = settings(candidates[i].pose);
-    candidates[i].icp = refine_pose(scene_, model_.view(), candidates[i].pose, s.*icp);
-    candidates[i].pose = candidates[i].icp.camera_T_model;
+    if (options_.refinement.enabled) {
+      candidates[i].icp = refine_pose(scene_, model_.view(), candidates[i].pose, s.*icp);
+      candidates[i].pose = candidates[i].icp.camera_T_model;
+    }
     examine(candidates[i], s.*how);
   });
   rank(candidates);

@@ -40,7 +40,7 @@ class CandidateSearch {
   /// Looks for all `references` (indices into points), or until a candidate is beyond doubt.
   std::vector<Candidate> run(const std::vector<uint32_t>& references, MatchResult& result) const;
 
-  /// Refines one pose finely and looks at it in full.
+  /// Refines one pose coarsely and finely, and looks at it in full.
   Candidate finish(const PoseF& pose, float votes) const;
 
   /// Refines what is to be reported once more, with every point of the model.

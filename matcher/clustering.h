@@ -5,11 +5,6 @@
 
 namespace edgepose {
 
-struct ClusteringOptions {
-  float max_distance = 0.1f;  ///< [d] between the model centres of any two poses of a cluster
-  float max_angle_deg = 30;   ///< [degrees] between any two poses of a cluster
-};
-
 /// Groups like poses and averages each group: quaternion mean, votes added up (paper Sec. 4.3.3).
 /// Sorted by votes, strongest first.
 std::vector<PoseHypothesis> cluster_poses(std::vector<PoseHypothesis> poses, const Model& model,

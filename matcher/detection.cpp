@@ -14,7 +14,7 @@ constexpr int kCell = 6;            // pixels
 constexpr float kSameThing = 0.5f;  // share of common cells above which two poses explain the same thing
 constexpr float kDifferentDistance = 0.1f;  // [d] poses farther apart than this ...
 constexpr float kDifferentAngle = 0.26f;    // ... or turned by more than 15 degrees are clearly different
-constexpr double kCorrelation = 2;  // neighbouring pixels err together: this many count as one measurement
+constexpr double kCorrelation = 2;    // neighbouring pixels err together: this many count as one measurement
 constexpr double kLeastSigma = 1e-4;  // [d] no mesh is truer to its object than this
 
 RigidTransform to_rigid(const PoseF& pose) {
@@ -24,15 +24,29 @@ RigidTransform to_rigid(const PoseF& pose) {
   return t;
 }
 
-/// Inverse of the information, scaled to the residuals that are really there; directions that nothing holds get
-/// the variance of a guess (a tenth of the diameter, 0.3 rad) instead of infinity.
+/// Inverse of the information, scaled to the residuals that are really there; directions that nothing holds
+/// get the variance of a guess (a tenth of the diameter, 0.3 rad) instead of infinity.
 Eigen::Matrix<double, 6, 6> covariance(const IcpResult& icp, double diameter) {
   const double sigma = std::max(static_cast<double>(icp.rms), kLeastSigma * diameter);
   const double assumed = icp.surface_sigma;
-  Eigen::Matrix<double, 6, 6> information = icp.information * (assumed * assumed) / (sigma * sigma * kCorrelation);
+  Eigen::Matrix<double, 6, 6> information =
+      icp.information * (assumed * assumed) / (sigma * sigma * kCorrelation);
   information.diagonal().head<3>().array() += 1 / (0.3 * 0.3);
   information.diagonal().tail<3>().array() += 1 / (0.01 * diameter * diameter);
   return information.inverse();
+}
+
+/// The best score among the candidates that differ clearly from all that is reported; 0 if there is none.
+float best_rival(const std::vector<Candidate>& candidates, const std::vector<PoseF>& reported,
+                 const PoseComparison& comparison) {
+  float best = 0;
+  for (const Candidate& c : candidates) {
+    const bool known = std::any_of(reported.begin(), reported.end(), [&](const PoseF& pose) {
+      return comparison.alike(pose, c.pose, kDifferentDistance, kDifferentAngle);
+    });
+    if (!known) best = std::max(best, c.confidence);
+  }
+  return best;
 }
 
 }  // namespace
@@ -71,10 +85,11 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
   const PoseComparison comparison(model);
   const NearModel near_model(view, options.paper.edge_distance * d);
   std::vector<Detection> detections;
+  std::vector<PoseF> reported;
   std::vector<uint32_t> explained;
   for (const Candidate& found : ranked) {
     if (detections.size() >= static_cast<size_t>(options.max_instances)) break;
-    const Candidate c = options.refine ? search.polish(found) : found;
+    const Candidate c = search.polish(found);
     const bool accepted =
         options.verification != Verification::kFreeSpace || c.confidence >= options.accept_score;
     if (!detections.empty() && (!accepted || options.verification != Verification::kFreeSpace)) continue;
@@ -92,14 +107,13 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
     detection.violations = c.evidence.violation_share();
     detection.votes = c.votes;
     detection.covariance = covariance(c.icp, model.diameter());
-    const auto rival = std::find_if(ranked.begin(), ranked.end(), [&](const Candidate& other) {
-      return !comparison.alike(c.pose, other.pose, kDifferentDistance, kDifferentAngle);
-    });
-    detection.margin = c.confidence - (rival == ranked.end() ? 0 : rival->confidence);
     for (const RigidTransform& symmetry : model.symmetries().discrete)
       detection.equivalent.push_back(detection.camera_T_model * symmetry);
     detections.push_back(detection);
+    reported.push_back(c.pose);
   }
+  const float rival = best_rival(ranked, reported, comparison);
+  for (Detection& detection : detections) detection.margin = detection.score - static_cast<double>(rival);
   return detections;
 }
 

@@ -16,18 +16,23 @@
 namespace edgepose {
 namespace {
 
-constexpr size_t kMinReferences = 600,
-                 kMaxReferences = 900;  // few suffice in a large scene, a small one needs more than its share
-
 /// A seeded random subset, so that every prefix is spread over the scene.
-std::vector<uint32_t> pick_references(const std::vector<OrientedPoint>& points, float share, uint64_t seed) {
-  std::vector<uint32_t> order(points.size());
+std::vector<uint32_t> pick_references(size_t points, size_t wanted, uint64_t seed) {
+  std::vector<uint32_t> order(points);
   std::iota(order.begin(), order.end(), 0u);
   std::mt19937_64 generator(seed);
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[generator() % i]);
-  const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<float>(order.size())));
-  order.resize(std::min(order.size(), std::clamp(wanted, kMinReferences, kMaxReferences)));
+  order.resize(std::min(order.size(), wanted));
   return order;
+}
+
+/// The paper takes its share, whatever the scene's size.
+size_t wanted_references(size_t points, const MatchOptions& options) {
+  const auto share =
+      static_cast<size_t>(std::ceil(options.voting.reference_share * static_cast<float>(points)));
+  if (options.verification != Verification::kFreeSpace) return std::max<size_t>(share, 1);
+  return std::clamp(share, static_cast<size_t>(options.voting.min_references),
+                    static_cast<size_t>(options.voting.max_references));
 }
 
 /// The scene's points for this model (paper Fig. 4), without the planes that are too large to be on it.
@@ -36,19 +41,16 @@ std::vector<OrientedPoint> scene_points(const Scene::Data& scene, const Model& m
                                         const MatchOptions& options) {
   constexpr size_t kEnough = 200;
   const float d = static_cast<float>(model.diameter());
-  SamplingOptions sampling;
-  sampling.step = static_cast<float>(model.view().header->sampling_step);
-  sampling.keep_edges = options.edge_sampling;
-  sampling.max_pixel_size = d / 32;
-  sampling.max_noise = 0.012f * d;
-  sampling.threads = options.threads;
+  const float step = static_cast<float>(model.view().header->sampling_step);
+  SamplingOptions sampling = options.sampling;
   const auto take = [&] {
-    return drop_large_planes(sample_scene(scene, sampling), d, scene.noise, options.threads);
+    return drop_large_planes(sample_scene(scene, step, d, sampling, options.threads), d, scene.noise,
+                             options.threads);
   };
   std::vector<SampledPoint> samples = take();
   if (samples.size() < kEnough) {
-    sampling.max_pixel_size = d / 12;
-    sampling.max_noise = 0.1f * d;
+    sampling.max_pixel_size = std::max(sampling.max_pixel_size, 1 / 12.f);
+    sampling.max_noise = std::max(sampling.max_noise, 0.1f);
     samples = take();
   }
   std::vector<OrientedPoint> points;
@@ -65,12 +67,10 @@ std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Mod
                                              const CandidateSearch& search, const MatchOptions& options,
                                              MatchResult& result) {
   Stopwatch watch;
-  VotingOptions voting;
-  voting.threads = options.threads;
   const PartnerSearch partners(points, static_cast<float>(model.diameter()));
-  auto hypotheses = vote(model, points, partners, references, voting);
+  auto hypotheses = vote(model, points, partners, references, options.voting, options.threads);
   result.times.voting = watch.lap();
-  const auto clusters = cluster_poses(std::move(hypotheses), model, {});
+  const auto clusters = cluster_poses(std::move(hypotheses), model, options.clustering);
   result.candidates = clusters.size();
   result.times.clustering = watch.lap();
   if (clusters.empty()) return {};
@@ -100,23 +100,14 @@ std::vector<Candidate> choose_like_the_paper(const Scene::Data& scene, const Mod
 
 }  // namespace
 
-std::string MatchOptions::check() const {
-  if (!(reference_share > 0 && reference_share <= 1))
-    return "reference_share: expected above 0 and at most 1";
-  if (max_instances < 1 || max_instances > 100) return "max_instances: expected 1 to 100";
-  if (!(accept_score >= 0 && accept_score <= 1)) return "accept_score: expected 0 to 1";
-  if (paper.candidates < 1 || paper.candidates > 1000) return "paper.candidates: expected 1 to 1000";
-  if (!(paper.roi_scale >= 1 && paper.roi_scale <= 10)) return "paper.roi_scale: expected 1 to 10";
-  return "";
-}
-
 MatchResult match(const Scene& scene_handle, const Model& model, const MatchOptions& options) {
   if (const std::string fault = options.check(); !fault.empty()) throw std::invalid_argument(fault);
   const Scene::Data& scene = scene_handle.data();
   MatchResult result;
   Stopwatch watch;
   const auto points = scene_points(scene, model, options);
-  const auto references = pick_references(points, options.reference_share, options.seed);
+  const auto references =
+      pick_references(points.size(), wanted_references(points.size(), options), options.seed);
   result.scene_points = points.size();
   result.reference_points = references.size();
   result.times.sampling = watch.lap();

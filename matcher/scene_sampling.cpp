@@ -106,20 +106,26 @@ int pixel_stride(const Scene::Data& scene, float step) {
   return std::clamp(static_cast<int>(step / 4 / scene.pixel_size(*quarter)), 1, 8);
 }
 
+/// What the finest level is made of.
+struct Finest {
+  int stride;                       // pixels
+  float cell;                       // [m]
+  float theta_deg;                  // [degrees]
+  float max_pixel_size, max_noise;  // [m]
+};
+
 /// The finest level: the pixels with a normal in some rows.
-std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene,
-                                                         const SamplingOptions& options, int stride,
+std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene, const Finest& how,
                                                          int first_row, int last_row) {
-  NormalClusterGrid grid(options.step / 2, options.fine_theta_deg, 2048);
-  for (int v = first_row; v < last_row; v += stride)
-    for (int u = stride / 2; u < scene.width; u += stride) {
+  NormalClusterGrid grid(how.cell, how.theta_deg, 2048);
+  for (int v = first_row; v < last_row; v += how.stride)
+    for (int u = how.stride / 2; u < scene.width; u += how.stride) {
       const size_t at = scene.index(u, v);
       const float z = scene.smooth_depth[at];
-      if (z <= 0 || scene.pixel_size(z) > options.max_pixel_size || scene.noise.at(z) > options.max_noise)
-        continue;
+      if (z <= 0 || scene.pixel_size(z) > how.max_pixel_size || scene.noise.at(z) > how.max_noise) continue;
       const Eigen::Vector3f ray = scene.ray(u, v), normal = scene.normals[at];
       const float slant = std::max(0.1f, -normal.dot(ray) / ray.norm());
-      const float side = scene.pixel_size(z) * static_cast<float>(stride);
+      const float side = scene.pixel_size(z) * static_cast<float>(how.stride);
       grid.add({{z * ray, normal}, side * side / slant, scene.edges[at] != EdgeKind::kNone}, 1);
     }
   return grid.take();
@@ -127,16 +133,16 @@ std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scen
 
 /// The finest level of the whole image, in strips that threads share; what strips have in common merges in
 /// the next level.
-std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene,
-                                                         const SamplingOptions& options) {
-  const int stride = pixel_stride(scene, options.step);
+std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene, const Finest& how,
+                                                         int threads) {
+  const int stride = how.stride;
   const int rows = (scene.height - stride / 2 + stride - 1) / stride;
   std::vector<std::vector<std::pair<SampledPoint, float>>> strips(kStrips);
-  parallel_for(kStrips, options.threads, [&](size_t s) {
+  parallel_for(kStrips, threads, [&](size_t s) {
     const auto row = [&](size_t strip) {
       return stride / 2 + stride * static_cast<int>(static_cast<size_t>(rows) * strip / kStrips);
     };
-    strips[s] = finest_level(scene, options, stride, row(s), std::min(row(s + 1), scene.height));
+    strips[s] = finest_level(scene, how, row(s), std::min(row(s + 1), scene.height));
   });
   std::vector<std::pair<SampledPoint, float>> points;
   for (const auto& strip : strips) points.insert(points.end(), strip.begin(), strip.end());
@@ -185,20 +191,23 @@ EDGEPOSE_WIDE_SIMD int32_t area_on_plane(const Patches& patches, PlaneQuery q) {
 
 }  // namespace
 
-std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingOptions& options) {
-  const auto fine = finest_level(scene, options);
+std::vector<SampledPoint> sample_scene(const Scene::Data& scene, float step, float diameter,
+                                       const SamplingOptions& options, int threads) {
+  const Finest finest = {pixel_stride(scene, step), step / 2, options.fine_theta_deg,
+                         options.max_pixel_size * diameter, options.max_noise * diameter};
+  const auto fine = finest_level(scene, finest, threads);
   const float middle_theta = options.fine_theta_deg * options.theta_factor;
   const float coarse_theta = middle_theta * options.theta_factor;
 
   std::vector<SampledPoint> points;
-  NormalClusterGrid middle(options.step, middle_theta, fine.size());
+  NormalClusterGrid middle(step, middle_theta, fine.size());
   for (const auto& [point, weight] : fine) middle.add(point, weight);
   const auto middle_points = middle.take();
-  if (!options.keep_edges || middle_points.size() <= options.enough_points) {
+  if (!options.keep_edges || middle_points.size() <= static_cast<size_t>(options.enough_points)) {
     for (const auto& [point, weight] : middle_points) points.push_back(point);
     return points;
   }
-  NormalClusterGrid coarse(2 * options.step, coarse_theta, fine.size() / 4);
+  NormalClusterGrid coarse(2 * step, coarse_theta, fine.size() / 4);
   for (const auto& [point, weight] : middle_points) {
     if (point.edge)
       points.push_back(point);

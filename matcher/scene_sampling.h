@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "matcher/match_options.h"
 #include "matcher/scene_data.h"
 
 namespace edgepose {
@@ -13,22 +14,11 @@ struct SampledPoint {
   bool edge = false;  ///< on an edge of any kind
 };
 
-/// The multi-resolution, normal-clustered, edge-preserving down-sampling of the paper's Fig. 4.
-struct SamplingOptions {
-  float step =
-      0.01f;  ///< [m] grid of edge points; twice as wide where the surface is even, half in the first pass
-  float fine_theta_deg = 40;    ///< [degrees] normals closer than this merge in the finest grid ...
-  float theta_factor = 0.6f;    ///< ... and the threshold shrinks by this factor from level to level
-  size_t enough_points = 3000;  ///< a scene with no more points than this at `step` is not thinned further
-  float max_pixel_size =
-      0.005f;  ///< [m] what is so far away that a pixel spans more is left out: too coarse to match
-  float max_noise = 0.003f;  ///< [m] what is measured worse than this is left out too
-  bool keep_edges =
-      true;         ///< false: every point goes through the same levels up to `step` (no edge emphasis)
-  int threads = 0;  ///< 0 = all cores; the result does not depend on it
-};
-
-std::vector<SampledPoint> sample_scene(const Scene::Data& scene, const SamplingOptions& options);
+/// Down-samples the scene as the paper's Fig. 4 does. `step` [m]: grid of edge points; twice as wide where
+/// the surface is even, half in the first pass. `diameter` [m]: what the options' limits are relative to. The
+/// result does not depend on `threads`.
+std::vector<SampledPoint> sample_scene(const Scene::Data& scene, float step, float diameter,
+                                       const SamplingOptions& options, int threads);
 
 /// Drops the points of planes that are larger than any plane of an object of this diameter [m] can be: the
 /// table, the wall. What is left is where the object can be.

@@ -184,12 +184,11 @@ class Accumulator {
 
 std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
                                  const PartnerSearch& partners, const std::vector<uint32_t>& references,
-                                 const VotingOptions& options) {
+                                 const VotingOptions& options, int threads) {
   const size_t peaks = static_cast<size_t>(options.peaks_per_reference);
   std::vector<PoseHypothesis> hypotheses(references.size() * peaks);
-  const size_t chunks =
-      std::min<size_t>(references.size(), static_cast<size_t>(thread_count(options.threads)));
-  parallel_for(chunks, options.threads, [&](size_t chunk) {
+  const size_t chunks = std::min<size_t>(references.size(), static_cast<size_t>(thread_count(threads)));
+  parallel_for(chunks, threads, [&](size_t chunk) {
     Accumulator accumulator(model);
     for (size_t i = chunk; i < references.size(); i += chunks) {
       accumulator.vote_for(partners, points[references[i]], options.border);

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "matcher/match_options.h"
 #include "matcher/model_block.h"
 #include "matcher/partner_search.h"
 #include "matcher/types.h"
@@ -14,18 +15,12 @@ struct PoseHypothesis {
   float votes;
 };
 
-struct VotingOptions {
-  int peaks_per_reference = 4;  ///< best entries of each accumulator that become hypotheses
-  float border = 0.2f;          ///< [bins] features this close to a bucket's border also vote in the next one
-  int threads = 0;
-};
-
 /// Votes in (model point, alpha) for each reference (paper Sec. 3.2; duplicate flags of Hinterstoisser et al.
 /// 2016) and returns the peaks, `peaks_per_reference` for each reference in order.
 /// `points`: all scene points, camera frame; `partners`: the same, prepared for a reach of the model's
 /// diameter; `references`: indices into the points.
 std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedPoint>& points,
                                  const PartnerSearch& partners, const std::vector<uint32_t>& references,
-                                 const VotingOptions& options);
+                                 const VotingOptions& options, int threads);
 
 }  // namespace edgepose

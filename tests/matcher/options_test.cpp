@@ -54,11 +54,25 @@ TEST(Options, SceneOptionsNameTheBadField) {
 
 TEST(Options, MatchOptionsNameTheBadField) {
   for (float bad : {-0.1f, 1.1f, kNan}) {
-    EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.reference_share = bad; }),
-                testing::StartsWith("reference_share"));
+    EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.voting.reference_share = bad; }),
+                testing::StartsWith("voting.reference_share"));
+    EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.sampling.theta_factor = bad; }),
+                testing::StartsWith("sampling.theta_factor"));
+    EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.clustering.max_distance = bad; }),
+                testing::StartsWith("clustering.max_distance"));
+    EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.tolerance.surface = bad; }),
+                testing::StartsWith("tolerance.surface"));
+    EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.paper.edge_distance = bad; }),
+                testing::StartsWith("paper.edge_distance"));
     EXPECT_THAT(fault<MatchOptions>([&](auto& o) { o.accept_score = bad; }),
                 testing::StartsWith("accept_score"));
   }
+  EXPECT_THAT(fault<MatchOptions>([](auto& o) { o.search.batch = 0; }), testing::StartsWith("search.batch"));
+  EXPECT_THAT(fault<MatchOptions>([](auto& o) { o.search.fine_candidates = o.search.coarse_candidates + 1; }),
+              testing::StartsWith("search.fine_candidates"));
+  EXPECT_THAT(fault<MatchOptions>([](auto& o) { o.refinement.fine_iterations = -1; }),
+              testing::StartsWith("refinement.fine_iterations"));
+  EXPECT_THAT(fault<MatchOptions>([](auto& o) { o.threads = -3; }), testing::StartsWith("threads"));
   EXPECT_THAT(fault<MatchOptions>([](auto& o) { o.max_instances = 0; }),
               testing::StartsWith("max_instances"));
   EXPECT_THAT(fault<MatchOptions>([](auto& o) { o.paper.candidates = 0; }),
