@@ -1,0 +1,65 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "matcher/match.h"
+#include "tests/matcher/fixtures.h"
+
+namespace edgepose {
+namespace {
+
+using fixtures::bracket;
+using fixtures::bracket_model;
+
+RigidTransform placed(double x, double turn) {
+  RigidTransform pose = RigidTransform::Identity();
+  pose.linear() = (Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(2.6, Eigen::Vector3d(1, 0.4, 0).normalized()))
+                      .toRotationMatrix();
+  pose.translation() = Eigen::Vector3d(x, 0, 0.33) - pose.linear() * bracket_model().centre();
+  return pose;
+}
+
+/// Two brackets side by side before a wall.
+Scene two_brackets() {
+  const fixtures::Plane wall = {{0, 0, -1}, -0.45};
+  DepthImage image = fixtures::render(wall, bracket(), placed(-0.065, 0.3));
+  const DepthImage other = fixtures::render(wall, bracket(), placed(0.065, 2.0));
+  for (size_t i = 0; i < image.depth.size(); ++i) image.depth[i] = std::min(image.depth[i], other.depth[i]);
+  return prepare_scene(image, fixtures::kCamera);
+}
+
+TEST(Instances, EachIsReportedOnceAndIsNoRivalOfTheOther) {
+  MatchOptions options;
+  options.max_instances = 5;
+  const MatchResult result = match(two_brackets(), bracket_model(), options);
+  size_t left = 0, right = 0;
+  for (const Detection& d : result.detections) {
+    if (!d.accepted) continue;
+    const Eigen::Vector3d at = d.camera_T_model * bracket_model().centre();
+    left += (at - placed(-0.065, 0.3) * bracket_model().centre()).norm() < 0.01;
+    right += (at - placed(0.065, 2.0) * bracket_model().centre()).norm() < 0.01;
+    EXPECT_GT(d.margin, 0.1);
+  }
+  EXPECT_EQ(left, 1u);
+  EXPECT_EQ(right, 1u);
+}
+
+TEST(Conflicts, OfTwoModelsForOneThingTheOneThatExplainsMoreStays) {
+  // A bracket whose long arm ends early: explains less of what the whole one left in the image.
+  Mesh part = bracket();
+  for (auto& p : part.vertices) p.x() = std::min(p.x(), 0.055f);
+  const Model shorter = train_model(part, "shorter", fixtures::quick_training());
+  const Scene scene = two_brackets();
+  std::vector<MatchResult> results = {match(scene, shorter), match(scene, bracket_model())};
+  ASSERT_FALSE(results[0].detections.empty());
+  ASSERT_TRUE(results[1].detections.at(0).accepted);
+  // Where the shorter one was found does not matter here, only that it claims the same surface.
+  results[0].detections[0] = results[1].detections[0];
+  resolve_conflicts(scene, {&shorter, &bracket_model()}, results);
+  EXPECT_TRUE(results[1].detections[0].accepted);
+  EXPECT_FALSE(results[0].detections[0].accepted);
+  EXPECT_THAT(results[0].reason, testing::HasSubstr("bracket"));
+}
+
+}  // namespace
+}  // namespace edgepose
