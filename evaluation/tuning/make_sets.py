@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes the sets on which the verdict's weights are fitted and checked (README.md beside this file).
 
-make_sets.py FOLDER [--images 90] [--sets fit_a fit_b held_out] [--program edgepose] [--phantom edgepose-phantom]
+make_sets.py FOLDER [--images 90] [--sets fit_a fit_b held_out fit_worn] [--program edgepose] [--phantom edgepose-phantom]
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ import solids
 from png16 import read_png16
 from scenes import Body, Pile, about_z, camera_at, random_rotation, rotation_between
 
-SETS = {'fit_a': range(1, 9), 'fit_b': range(9, 17), 'held_out': range(17, 25)}
+SETS = {'fit_a': range(1, 9), 'fit_b': range(9, 17), 'held_out': range(17, 25), 'fit_worn': (2, 3, 5, 8, 11, 13, 14, 15)}
 KINDS = ('alone', 'table', 'wall', 'clutter', 'heap')  # of image k: k mod 5
 SENSORS = ('ideal', 'laser', 'structured_light', 'time_of_flight')
 SENSOR_SHARES = (0.16, 0.24, 0.3, 0.3)
@@ -222,6 +222,30 @@ def bounding_box(mask):
     return [int(u.min()), int(v.min()), int(u.max() - u.min() + 1), int(v.max() - v.min() + 1)] if len(u) else [-1] * 4
 
 
+def worn(body, folder, rng):
+    """The body as it really is: no mesh is true to its object. A little larger or smaller, warped by about a
+    hundredth of its diameter, and in every other case partly covered by a layer of something."""
+    d = body.diameter
+    vertices = body.vertices * (1 + rng.normal(0, 0.008))
+    for _ in range(3):
+        wave, phase = rng.normal(size=3) * 2 * np.pi / d, rng.uniform(0, 2 * np.pi, 3)
+        vertices = vertices + 0.005 * d * np.sin((body.vertices @ wave)[:, None] + phase)
+    triangles = body.triangles
+    if rng.uniform() < 0.5:
+        corners = vertices[triangles]
+        normals = np.zeros_like(vertices)
+        for k in range(3): np.add.at(normals, triangles[:, k], np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-9)[:, None]
+        direction = rng.normal(size=3)
+        side = corners.mean(axis=1) @ (direction / np.linalg.norm(direction))
+        layer = vertices + rng.uniform(0.015, 0.05) * d * normals
+        triangles = np.concatenate([triangles, triangles[side > np.quantile(side, rng.uniform(0.5, 0.85))] + len(vertices)])
+        vertices = np.concatenate([vertices, layer])
+    path = folder / f'worn_{body.number}.ply'
+    solids.write_ply(path, vertices, triangles)
+    return path
+
+
 def make_image(job):
     """Renders image k of a set; returns what its JSON files say of it."""
     set_folder, set_number, k, seed, models, distractors, program, draw = job
@@ -236,7 +260,9 @@ def make_image(job):
         own = [item for item in scene['placed'] if item[0] in scene['own']]
         foreign = [entry(b.path, 0, r, t) for b, r, t in scene['placed'] if b not in scene['own']]
         backdrop = [entry(set_folder / 'distractors' / f'{name}.ply', 0, r, t) for name, r, t in scene['backdrop']]
-        entries = [entry(b.path, b.number, r, t) for b, r, t in own]
+        path = {b.number: b.path for b, _, _ in own}
+        if set_folder.name.endswith('worn'): path = {b.number: worn(b, scratch, rng) for b, _, _ in own}
+        entries = [entry(path[b.number], b.number, r, t) for b, r, t in own]
         layers = [renderer.depth([e]) for e in entries]
         others = np.full_like(layers[0], 1 << 30)
         if foreign + backdrop: others = renderer.depth(foreign + backdrop)

@@ -1,4 +1,4 @@
-"""Reads 16-bit grey PNGs with numpy alone."""
+"""Reads and writes 16-bit grey PNGs with numpy alone."""
 import struct
 import zlib
 
@@ -53,3 +53,16 @@ def unfilter(kinds, pixels):
         guess[kind[:, 0] == 0] = 0
         full[v + 1, u + 1] = (pixels[v, u] + guess) & 255
     return full[1:, 1:]
+
+
+def write_png16(path, values):
+    height, width = values.shape
+    rows = np.zeros((height, 1 + 2 * width), np.uint8)  # the first byte: no filter
+    rows[:, 1::2], rows[:, 2::2] = values >> 8, values & 255
+
+    def chunk(kind, body):
+        return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
+
+    with open(path, 'wb') as file:
+        file.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 16, 0, 0, 0, 0))
+                   + chunk(b'IDAT', zlib.compress(rows.tobytes(), 6)) + chunk(b'IEND', b''))

@@ -37,6 +37,7 @@ class Body:
     def __init__(self, number, path, vertices, triangles, diameter):
         rng = np.random.default_rng(number)
         self.number, self.path, self.diameter = number, path, diameter
+        self.vertices, self.triangles = vertices, triangles
         self.hull = outermost(vertices, 1500)
         self.points = surface_points(vertices, triangles, 25000, rng)
         self.centre = self.points.mean(axis=0)
