@@ -21,7 +21,8 @@ SETS = {'fit_a': range(1, 9), 'fit_b': range(9, 17), 'held_out': range(17, 25), 
 KINDS = ('alone', 'table', 'wall', 'clutter', 'heap')  # of image k: k mod 5
 SENSORS = ('ideal', 'laser', 'structured_light', 'time_of_flight')
 SENSOR_SHARES = (0.16, 0.24, 0.3, 0.3)
-LEAST_VISIBLE = 0.15  # share of the silhouette; what shows less is taken out of the scene
+NEAREST = {'ideal': 150, 'laser': 150, 'structured_light': 310, 'time_of_flight': 260}  # [mm] that is measured
+LEAST_VISIBLE = 0.15  # share of the silhouette; what shows less, to the sensor, is taken out of the scene
 LEAST_PIXELS = 250
 
 
@@ -45,9 +46,9 @@ def random_camera(rng):
             'cx': round((width - 1) / 2 + rng.normal(0, 6), 3), 'cy': round((height - 1) / 2 + rng.normal(0, 6), 3)}
 
 
-def is_inside(camera, points):
-    """All in front of the camera and in the image."""
-    if (points[:, 2] < 150).any(): return False
+def is_inside(camera, points, nearest):
+    """All in the image, and none too near to be measured."""
+    if (points[:, 2] < nearest).any(): return False
     u = camera['fx'] * points[:, 0] / points[:, 2] + camera['cx']
     v = camera['fy'] * points[:, 1] / points[:, 2] + camera['cy']
     across = (u > 4) & (u < camera['width'] - 5)
@@ -149,7 +150,7 @@ def arrange(rng, kind, index, models, distractors):
     for _ in range(30):
         rotation, translation = camera_at(target, elevation, azimuth, roll, distance)
         translation = translation + np.array([*(shift * distance), 0])
-        if is_inside(camera, points @ rotation.T + translation): break
+        if is_inside(camera, points @ rotation.T + translation, NEAREST[sensor]): break
         distance *= 1.06
         shift *= 0.9
     else: return None
@@ -252,6 +253,8 @@ def make_image(job):
     scratch = set_folder / 'scratch' / str(k)
     scratch.mkdir(parents=True, exist_ok=True)
     kind = KINDS[k % len(KINDS)]
+    noise_seed = int(np.random.default_rng([seed, set_number, k]).integers(1 << 31))
+    overlay = set_folder / 'overlays' / f'{k:06d}.png' if draw else None
     for attempt in range(1000):
         rng = np.random.default_rng([seed, set_number, k, attempt])
         scene = arrange(rng, kind, k, models, distractors)
@@ -267,20 +270,16 @@ def make_image(job):
         others = np.full_like(layers[0], 1 << 30)
         if foreign + backdrop: others = renderer.depth(foreign + backdrop)
         while entries:  # takes out what hardly shows; others may show more then
+            renderer.render(entries + foreign + backdrop, scratch / 'scene.png', scene['sensor'], noise_seed, overlay)
+            measured = read_png16(scratch / 'scene.png') > 0
             seen = visibilities(layers, others)
-            weak = [i for i, (count, mask) in enumerate(seen)
-                    if mask.sum() < max(LEAST_PIXELS, LEAST_VISIBLE * count)]
-            if not weak: break
-            worst = min(weak, key=lambda i: seen[i][1].sum() / max(1, seen[i][0]))
+            shares = [(mask & measured).sum() / max(LEAST_PIXELS / LEAST_VISIBLE, count) for count, mask in seen]
+            worst = int(np.argmin(shares))
+            if shares[worst] >= LEAST_VISIBLE: break
             del entries[worst], layers[worst]
         if entries: break
     else: raise RuntimeError(f'image {k}: no arrangement fits')
-    depth_file = set_folder / 'test' / '000001' / 'depth' / f'{k:06d}.png'
-    noise_seed = int(np.random.default_rng([seed, set_number, k]).integers(1 << 31))
-    overlay = set_folder / 'overlays' / f'{k:06d}.png' if draw else None
-    renderer.render(entries + foreign + backdrop, scratch / 'scene.png', scene['sensor'], noise_seed, overlay)
-    (scratch / 'scene.png').rename(depth_file)
-    measured = read_png16(depth_file) > 0
+    (scratch / 'scene.png').rename(set_folder / 'test' / '000001' / 'depth' / f'{k:06d}.png')
     info = [{'px_count_all': count, 'px_count_visib': int(mask.sum()), 'px_count_valid': int((mask & measured).sum()),
              'visib_fract': round(float(mask.sum() / count), 4), 'bbox_obj': bounding_box(layer < 1 << 30),
              'bbox_visib': bounding_box(mask)} for layer, (count, mask) in zip(layers, seen)]
