@@ -62,24 +62,6 @@ void merge_like(std::vector<Candidate>& ranked, const PoseComparison& comparison
   ranked = std::move(kept);
 }
 
-/// Adds what a batch found to what the batches before it did.
-void merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch,
-                 const PoseComparison& comparison) {
-  for (const Candidate& c : batch) {
-    const auto like = std::find_if(found.begin(), found.end(), [&](const Candidate& f) {
-      return comparison.alike(f.pose, c.pose, kLikeDistance, kLikeAngle);
-    });
-    if (like == found.end()) {
-      found.push_back(c);
-      continue;
-    }
-    const int sightings = like->sightings + 1;
-    if (c.score > like->score) *like = c;
-    like->sightings = sightings;
-  }
-  rank(found);
-}
-
 }  // namespace
 
 CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model,
@@ -156,7 +138,7 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
   refine(batch, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
   keep_promising(batch, static_cast<size_t>(options_.search.fine_candidates));
   refine(batch, &VerificationSettings::fine_icp, &VerificationSettings::full);
-  merge_batch(found, batch, comparison_);
+  merge_batch(found, batch);
   result.times.refinement += watch.lap();
 }
 
@@ -193,6 +175,23 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
   return s;
 }
 
+void CandidateSearch::merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch) const {
+  for (const Candidate& c : batch) {
+    const auto like = std::find_if(found.begin(), found.end(), [&](const Candidate& f) {
+      return comparison_.alike(f.pose, c.pose, kLikeDistance, kLikeAngle);
+    });
+    if (like == found.end()) {
+      found.push_back(c);
+      continue;
+    }
+    const int sightings = like->sightings + 1;
+    if (c.score > like->score) *like = c;
+    like->sightings = sightings;
+    like->confidence = acceptance_score(like->evidence, settings(like->pose).full, sightings);
+  }
+  rank(found);
+}
+
 const VerificationSettings& CandidateSearch::settings(const PoseF& pose) const {
   const Eigen::Vector3f centre = pose * box_centre(*model_.view().header);
   return settings_[NoiseCurve::bin(centre.z())];
@@ -202,7 +201,7 @@ void CandidateSearch::examine(Candidate& c, const FreeSpaceOptions& how) const {
   c.evidence = examine_pose(scene_, model_.view(), c.pose, how);
   c.score = rank_score(c.evidence, how);
   c.surface = surface_score(c.evidence, how);
-  c.confidence = acceptance_score(c.evidence, how);
+  c.confidence = acceptance_score(c.evidence, how, c.sightings);
 }
 
 void CandidateSearch::refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,

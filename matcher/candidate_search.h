@@ -51,6 +51,8 @@ class CandidateSearch {
  private:
   void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& found,
                  MatchResult& result) const;
+  /// Adds what a batch found to what the batches before it did.
+  void merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch) const;
   VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;
   void examine(Candidate& c, const FreeSpaceOptions& how) const;
   void refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,

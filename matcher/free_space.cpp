@@ -160,12 +160,13 @@ float surface_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options)
   return 8.9f * f.matched - 0.65f * f.disagreeing - 0.5f * f.violated - 4.9f * f.near;
 }
 
-float acceptance_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
+float acceptance_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& options, int sightings) {
   if (e.matched < kTooFew) return 0;
   const Features f(e, options);
-  const float logit = 9.22f + 2.04f * f.matched + 0.67f * f.coverage + 1.14f * f.disagreeing -
-                      1.31f * f.violated - 1.17f * f.near + 0.32f * f.distance - 1.21f * f.denied +
-                      3.8f * f.confirmed + 2.06f * f.spread;
+  const float logit = 2.65f + 1.38f * f.matched + 0.09f * f.coverage + 1.33f * f.disagreeing -
+                      0.59f * f.violated - 1.48f * f.near - 0.53f * f.distance - 0.96f * f.denied +
+                      1.94f * f.confirmed - 0.94f * f.unmeasured + 1.32f * f.spread +
+                      1.74f * std::log(static_cast<float>(sightings));
   return 1 / (1 + std::exp(-logit));
 }
 

@@ -50,7 +50,8 @@ float rank_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& opti
 /// all.
 float surface_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
 
-/// [0, 1] the probability that the best candidate is right, by logistic regression.
-float acceptance_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
+/// [0, 1] the probability that the best candidate is right, by logistic regression. `sightings`: how many
+/// batches of references have led to it, each by itself; what is not there is seldom found twice.
+float acceptance_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options, int sightings);
 
 }  // namespace edgepose

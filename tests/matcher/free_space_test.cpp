@@ -32,13 +32,13 @@ TEST_P(FreeSpace, TheTruePoseIsMatchedAndNotViolated) {
   EXPECT_GT(e.expected, 200);
   EXPECT_GT(e.coverage(), 0.8);
   EXPECT_LT(e.violation_share(), 0.02);
-  EXPECT_GT(acceptance_score(e, options), 0.66);
+  EXPECT_GT(acceptance_score(e, options, 1), 0.66);
 }
 
 TEST_P(FreeSpace, WhereTheTableShowsThroughThePoseIsViolated) {
   const FreeSpaceEvidence e = examine(fixtures::render(fixtures::table()), seen.truth());
   EXPECT_GT(e.violation_share(), 0.4);
-  EXPECT_LT(acceptance_score(e, options), 0.2);
+  EXPECT_LT(acceptance_score(e, options, 1), 0.2);
 }
 
 TEST_P(FreeSpace, AnOccluderHidesAndDoesNotViolate) {
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, FreeSpace, testing::Values(1, 2, 3));
 TEST(Score, OfNothingSeenIsLowest) {
   EXPECT_EQ(rank_score({}, {}), kNoEvidence);
   EXPECT_EQ(surface_score({}, {}), kNoEvidence);
-  EXPECT_EQ(acceptance_score({}, {}), 0);
+  EXPECT_EQ(acceptance_score({}, {}, 1), 0);
 }
 
 }  // namespace
