@@ -28,7 +28,7 @@ double ellipsoid(const Vector3d& p, const Vector3d& radii) {
 }
 
 /// Rod from a to b whose radius goes from radius_a to radius_b, flattened along x, y, z by `squash`.
-double rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double radius_a, double radius_b,
+double rounded_rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double radius_a, double radius_b,
            const Vector3d& squash) {
   const Vector3d q = (p - a).cwiseQuotient(squash), along = (b - a).cwiseQuotient(squash);
   const double t = std::clamp(q.dot(along) / along.dot(along), 0.0, 1.0);
@@ -49,11 +49,11 @@ double vertebral_body(const Vector3d& p) {
 
 /// Everything behind the body that a right and a left side share; p.x() >= 0.
 double half_arch(const Vector3d& p) {
-  const double pedicle = rod(p, {14.5, 10, 5}, {16, 29, 4.5}, 5.2, 5.4, {1, 1, 1.45});
-  const double lamina = rod(p, {13, 31, 2}, {0, 40, -4}, 3.9, 3.9, {1, 1, 2.3});
-  const double superior = rod(p, {17, 31, 6}, {19, 33.5, 19}, 5.8, 4.6, {1, 1.1, 1});
+  const double pedicle = rounded_rod(p, {14.5, 10, 5}, {16, 29, 4.5}, 5.2, 5.4, {1, 1, 1.45});
+  const double lamina = rounded_rod(p, {13, 31, 2}, {0, 40, -4}, 3.9, 3.9, {1, 1, 2.3});
+  const double superior = rounded_rod(p, {17, 31, 6}, {19, 33.5, 19}, 5.8, 4.6, {1, 1.1, 1});
   const double superior_facet = ellipsoid(p - Vector3d(13, 42, 21), {6, 11, 12});  // hollow facet
-  const double inferior = rod(p, {12.5, 36, -8}, {12, 38.5, -23}, 5, 4.4, {1, 1, 1});
+  const double inferior = rounded_rod(p, {12.5, 36, -8}, {12, 38.5, -23}, 5, 4.4, {1, 1, 1});
   double arch = join(pedicle, lamina, 5);
   arch = join(arch, cut(superior, superior_facet, 1.5), 4);
   return join(arch, inferior, 4);
@@ -61,14 +61,14 @@ double half_arch(const Vector3d& p) {
 
 /// Transverse processes: the left one is longer, thicker and points up, so that left and right differ.
 double transverse_processes(const Vector3d& p) {
-  const double left = rod(p, {17, 29, 3}, {44, 34, 8}, 5.4, 3.4, {1, 0.8, 1.25});
-  const double right = rod(p, {-17, 29, 3}, {-40, 36, 1}, 5.0, 3.0, {1, 0.8, 1.25});
+  const double left = rounded_rod(p, {17, 29, 3}, {44, 34, 8}, 5.4, 3.4, {1, 0.8, 1.25});
+  const double right = rounded_rod(p, {-17, 29, 3}, {-40, 36, 1}, 5.0, 3.0, {1, 0.8, 1.25});
   return std::min(left, right);
 }
 
 /// A plate in the middle, bent a little to the right, with a blunt thickened end.
 double spinous_process(const Vector3d& p) {
-  const double plate = rod(p, {0, 40, -4}, {-2, 61, -10}, 3.2, 2.8, {1, 1, 2.6});
+  const double plate = rounded_rod(p, {0, 40, -4}, {-2, 61, -10}, 3.2, 2.8, {1, 1, 2.6});
   const double end = ellipsoid(p - Vector3d(-2.2, 62, -10.5), {4, 5, 8.5});
   return join(plate, end, 4);
 }

@@ -14,6 +14,13 @@
 
 namespace edgepose {
 
+/// `text` with its first `old`, which must be there, replaced.
+inline std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  const size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), by);
+}
+
 /// A folder of its own for one test, removed with it.
 class TemporaryFolder {
  public:

@@ -123,12 +123,6 @@ TEST(CameraFile, ReadsRos2Echo) {
   expect_camera(parse_camera_file(text, "info.yaml").camera, 500, 501, 320, 240);
 }
 
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  const size_t at = text.find(old);
-  EXPECT_NE(at, std::string::npos) << old;
-  return text.replace(at, old.size(), by);
-}
-
 TEST(CameraFile, RefusesUnsoundJson) {
   const std::pair<std::string, const char*> cases[] = {
       {replaced(kSceneCamera, "600.5", "0"), "fx"},

@@ -17,12 +17,6 @@ const std::string kPlan = R"({
     {"name": "right", "entry_mm": [14, 12.5, 8], "axis": [0, -1, 0], "depth_mm": 35, "diameter_mm": 3.5,
      "tolerance_mm": 1, "tolerance_deg": 3}]})";
 
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  const size_t at = text.find(old);
-  EXPECT_NE(at, std::string::npos) << old;
-  return text.replace(at, old.size(), by);
-}
-
 TEST(DrillPlan, ReadsInSiUnits) {
   const DrillPlan plan = parse_drill_plan(kPlan, "plan.json");
   EXPECT_EQ(plan.model, "phantom");

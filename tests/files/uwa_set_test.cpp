@@ -29,7 +29,7 @@ const std::string kCloud =
     "0 0 -800\n1 0 -800\n";
 
 /// As UWA's archives unpack: three folders, and names that do not quite agree.
-void write_set(const TemporaryFolder& folder) {
+void write_uwa_set(const TemporaryFolder& folder) {
   folder.write("models/cheff.ply", tetrahedron(1));
   folder.write("models/T-rex_high.ply", tetrahedron(2));
   folder.write("models/rhino.ply", tetrahedron(3));
@@ -43,7 +43,7 @@ void write_set(const TemporaryFolder& folder) {
 
 TEST(UwaSet, ReadsFolders) {
   const TemporaryFolder folder;
-  write_set(folder);
+  write_uwa_set(folder);
   const TestSet set = read_test_set(folder.path());
   ASSERT_EQ(set.objects.size(), 2u) << "the rhino is in no ground truth";
   EXPECT_EQ(set.objects[0].name, "T-rex_high");
@@ -138,10 +138,10 @@ TEST(UwaSet, RefusesUnsoundPoses) {
 
 TEST(UwaSet, NamesBadFiles) {
   const TemporaryFolder folder;
-  write_set(folder);
+  write_uwa_set(folder);
   folder.write("GroundTruth_3Dscenes/T-rex-rs2.xf", "");
   expect_input_error([&] { read_test_set(folder.path()); }, {"T-rex-rs2.xf", "empty file"});
-  write_set(folder);
+  write_uwa_set(folder);
   folder.write("models/cheff.ply", "not a ply");
   expect_input_error([&] { read_test_set(folder.path()); }, {"cheff.ply"});
 }

@@ -10,13 +10,13 @@
 namespace edgepose {
 namespace {
 
-const Camera kCamera{500, 480, 159.5, 119.25};
-constexpr int kWidth = 320, kHeight = 240;
+const Camera kRenderCamera{500, 480, 159.5, 119.25};
+constexpr int kRenderWidth = 320, kRenderHeight = 240;
 
 TEST(DepthRenderer, PlaneFacingTheCameraHasConstantDepth) {
   DepthRenderer renderer;
   renderer.add(shapes::rectangle(10, 10), shapes::at(0, 0, 0.8));
-  const RenderedView view = renderer.render(kCamera, kWidth, kHeight);
+  const RenderedView view = renderer.render(kRenderCamera, kRenderWidth, kRenderHeight);
   for (const float depth : view.depth.depth) ASSERT_NEAR(depth, 0.8f, 1e-6);
 }
 
@@ -25,11 +25,12 @@ TEST(DepthRenderer, TiltedPlaneMatchesTheRayEquation) {
   pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 0.3).normalized()));
   DepthRenderer renderer;
   renderer.add(shapes::rectangle(20, 20), pose);
-  const RenderedView view = renderer.render(kCamera, kWidth, kHeight);
+  const RenderedView view = renderer.render(kRenderCamera, kRenderWidth, kRenderHeight);
   const Eigen::Vector3d normal = pose.linear().col(2), point = pose.translation();
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
-      const Eigen::Vector3d ray((u - kCamera.cx) / kCamera.fx, (v - kCamera.cy) / kCamera.fy, 1);
+  for (int v = 0; v < kRenderHeight; ++v) {
+    for (int u = 0; u < kRenderWidth; ++u) {
+      const Eigen::Vector3d ray((u - kRenderCamera.cx) / kRenderCamera.fx,
+                                (v - kRenderCamera.cy) / kRenderCamera.fy, 1);
       ASSERT_NEAR(view.depth.at(u, v), normal.dot(point) / normal.dot(ray), 5e-6) << u << " " << v;
     }
   }
@@ -40,19 +41,20 @@ TEST(DepthRenderer, SphereMatchesTheClosedForm) {
   const Eigen::Vector3d centre(0.05, 0.02, 0.7);
   DepthRenderer renderer;
   renderer.add(shapes::sphere(static_cast<float>(radius), 300), shapes::at(0.05, 0.02, 0.7));
-  const RenderedView view = renderer.render(kCamera, kWidth, kHeight);
+  const RenderedView view = renderer.render(kRenderCamera, kRenderWidth, kRenderHeight);
   int inside = 0;
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
-      const Eigen::Vector3d ray((u - kCamera.cx) / kCamera.fx, (v - kCamera.cy) / kCamera.fy, 1);
+  for (int v = 0; v < kRenderHeight; ++v) {
+    for (int u = 0; u < kRenderWidth; ++u) {
+      const Eigen::Vector3d ray((u - kRenderCamera.cx) / kRenderCamera.fx,
+                                (v - kRenderCamera.cy) / kRenderCamera.fy, 1);
       const double b = ray.dot(centre), a = ray.squaredNorm();
       const double root = b * b - a * (centre.squaredNorm() - radius * radius);
       if (root < -1e-5) {
         ASSERT_EQ(view.depth.at(u, v), 0) << u << " " << v;
-        ASSERT_EQ(view.object[static_cast<size_t>(v * kWidth + u)], -1);
+        ASSERT_EQ(view.object[static_cast<size_t>(v * kRenderWidth + u)], -1);
       } else if (root > 1e-4) {
         ASSERT_NEAR(view.depth.at(u, v), (b - std::sqrt(root)) / a, 2e-4) << u << " " << v;
-        ASSERT_EQ(view.object[static_cast<size_t>(v * kWidth + u)], 0);
+        ASSERT_EQ(view.object[static_cast<size_t>(v * kRenderWidth + u)], 0);
         ++inside;
       }
     }
@@ -85,8 +87,8 @@ TEST(DepthRenderer, XPointsRightAndYPointsDown) {
   const size_t right = renderer.add(shapes::sphere(0.02f, 20), shapes::at(0.1, 0, 0.5));
   const size_t below = renderer.add(shapes::sphere(0.02f, 20), shapes::at(0, 0.1, 0.5));
   const Camera camera{300, 300, 160, 120};
-  const RenderedView view = renderer.render(camera, kWidth, kHeight);
-  const auto at = [&](int u, int v) { return view.object[static_cast<size_t>(v * kWidth + u)]; };
+  const RenderedView view = renderer.render(camera, kRenderWidth, kRenderHeight);
+  const auto at = [&](int u, int v) { return view.object[static_cast<size_t>(v * kRenderWidth + u)]; };
   EXPECT_EQ(at(220, 120), static_cast<int>(right));
   EXPECT_EQ(at(160, 180), static_cast<int>(below));
   EXPECT_EQ(at(160, 120), -1);
@@ -96,12 +98,12 @@ TEST(DepthRenderer, NearerObjectHidesTheOtherAndCanBeMovedAway) {
   DepthRenderer renderer;
   const size_t wall = renderer.add(shapes::rectangle(1, 1), shapes::at(0, 0, 1));
   const size_t card = renderer.add(shapes::rectangle(0.05f, 0.05f), shapes::at(0, 0, 0.5));
-  RenderedView view = renderer.render(kCamera, kWidth, kHeight);
-  const size_t middle = 119 * kWidth + 160;
+  RenderedView view = renderer.render(kRenderCamera, kRenderWidth, kRenderHeight);
+  const size_t middle = 119 * kRenderWidth + 160;
   EXPECT_EQ(view.object[middle], static_cast<int>(card));
   EXPECT_NEAR(view.depth.depth[middle], 0.5f, 1e-6);
   renderer.set_pose(card, shapes::at(5, 0, 0.5));
-  view = renderer.render(kCamera, kWidth, kHeight);
+  view = renderer.render(kRenderCamera, kRenderWidth, kRenderHeight);
   EXPECT_EQ(view.object[middle], static_cast<int>(wall));
   EXPECT_NEAR(view.depth.depth[middle], 1.0f, 1e-6);
 }
@@ -109,7 +111,8 @@ TEST(DepthRenderer, NearerObjectHidesTheOtherAndCanBeMovedAway) {
 TEST(DepthRenderer, NothingBehindTheCameraIsSeen) {
   DepthRenderer renderer;
   renderer.add(shapes::rectangle(1, 1), shapes::at(0, 0, -1));
-  for (const float depth : renderer.render(kCamera, kWidth, kHeight).depth.depth) ASSERT_EQ(depth, 0);
+  for (const float depth : renderer.render(kRenderCamera, kRenderWidth, kRenderHeight).depth.depth)
+    ASSERT_EQ(depth, 0);
 }
 
 TEST(DepthRenderer, SameBitsAtAnyThreadCountAndInEveryRun) {
@@ -117,7 +120,7 @@ TEST(DepthRenderer, SameBitsAtAnyThreadCountAndInEveryRun) {
     DepthRenderer renderer;
     renderer.add(shapes::sphere(0.1f, 100), shapes::at(0.01, 0.02, 0.6));
     renderer.add(shapes::rectangle(1, 1), shapes::at(0, 0, 0.65));
-    return renderer.render(kCamera, kWidth, kHeight, threads);
+    return renderer.render(kRenderCamera, kRenderWidth, kRenderHeight, threads);
   };
   const RenderedView one = render(1);
   for (const int threads : {1, 2, 7}) {
@@ -128,7 +131,7 @@ TEST(DepthRenderer, SameBitsAtAnyThreadCountAndInEveryRun) {
 }
 
 TEST(DepthRenderer, EmptySceneGivesAnEmptyImage) {
-  for (const float depth : DepthRenderer().render(kCamera, 8, 8).depth.depth) EXPECT_EQ(depth, 0);
+  for (const float depth : DepthRenderer().render(kRenderCamera, 8, 8).depth.depth) EXPECT_EQ(depth, 0);
 }
 
 TEST(DepthRenderer, RefusesUnsoundInput) {
@@ -148,8 +151,8 @@ TEST(DepthRenderer, RefusesUnsoundInput) {
   EXPECT_THROW(renderer.set_pose(0, RigidTransform::Identity()), std::out_of_range);
   EXPECT_THROW(renderer.render({0, 1, 0, 0}, 8, 8), std::invalid_argument);
   EXPECT_THROW(renderer.render({1, std::nan(""), 0, 0}, 8, 8), std::invalid_argument);
-  EXPECT_THROW(renderer.render(kCamera, 0, 8), std::invalid_argument);
-  EXPECT_THROW(renderer.render(kCamera, 8, 100000), std::invalid_argument);
+  EXPECT_THROW(renderer.render(kRenderCamera, 0, 8), std::invalid_argument);
+  EXPECT_THROW(renderer.render(kRenderCamera, 8, 100000), std::invalid_argument);
 }
 
 }  // namespace

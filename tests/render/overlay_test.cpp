@@ -14,8 +14,8 @@
 namespace edgepose {
 namespace {
 
-const Camera kCamera{300, 300, 79.5, 59.5};
-constexpr int kWidth = 160, kHeight = 120;
+const Camera kOverlayCamera{300, 300, 79.5, 59.5};
+constexpr int kOverlayWidth = 160, kOverlayHeight = 120;
 constexpr Colour kGreen{0, 255, 0};
 
 /// A box 4 cm wide before a wall, and if asked a card that hides its right half.
@@ -24,7 +24,7 @@ DepthImage scene(const Mesh& box, const RigidTransform& pose, bool half_hidden) 
   renderer.add(shapes::rectangle(2, 2), shapes::at(0, 0, 0.8));
   renderer.add(box, pose);
   if (half_hidden) renderer.add(shapes::rectangle(0.05f, 0.2f), shapes::at(0.05, 0, 0.3));
-  return renderer.render(kCamera, kWidth, kHeight).depth;
+  return renderer.render(kOverlayCamera, kOverlayWidth, kOverlayHeight).depth;
 }
 
 struct OverlayTest : testing::Test {
@@ -40,7 +40,7 @@ struct OverlayTest : testing::Test {
   }
   static OverlayOptions plain() {
     OverlayOptions options;
-    options.width = kWidth;
+    options.width = kOverlayWidth;
     options.zoom = false;
     options.frames = false;
     options.tint = 0;
@@ -60,9 +60,9 @@ struct OverlayTest : testing::Test {
 constexpr double kHalfU = 300 * 0.02 / 0.49, kHalfV = 300 * 0.015 / 0.49;
 
 TEST_F(OverlayTest, SilhouetteIsDrawnOnTheProjectedEdges) {
-  const RgbImage image = draw_overlay(scene(box, pose, false), kCamera, {found()}, plain());
-  ASSERT_EQ(image.width, kWidth);
-  ASSERT_EQ(image.height, kHeight);
+  const RgbImage image = draw_overlay(scene(box, pose, false), kOverlayCamera, {found()}, plain());
+  ASSERT_EQ(image.width, kOverlayWidth);
+  ASSERT_EQ(image.height, kOverlayHeight);
   for (const double side : {-1.0, 1.0}) {
     EXPECT_GT(greenness(image, static_cast<int>(std::lround(79.5 + side * kHalfU)), 60), 100);
     EXPECT_GT(greenness(image, 80, static_cast<int>(std::lround(59.5 + side * kHalfV))), 100);
@@ -73,7 +73,7 @@ TEST_F(OverlayTest, SilhouetteIsDrawnOnTheProjectedEdges) {
 }
 
 TEST_F(OverlayTest, LinesHiddenByTheSceneAreFaint) {
-  const RgbImage image = draw_overlay(scene(box, pose, true), kCamera, {found()}, plain());
+  const RgbImage image = draw_overlay(scene(box, pose, true), kOverlayCamera, {found()}, plain());
   const auto strongest = [&](double centre) {
     int best = 0;
     for (int u = static_cast<int>(centre) - 1; u <= static_cast<int>(centre) + 2; ++u) {
@@ -89,7 +89,7 @@ TEST_F(OverlayTest, LinesHiddenByTheSceneAreFaint) {
 TEST_F(OverlayTest, TintFillsOnlyTheVisibleSurface) {
   OverlayOptions options = plain();
   options.tint = 0.5;
-  const RgbImage image = draw_overlay(scene(box, pose, true), kCamera, {found()}, options);
+  const RgbImage image = draw_overlay(scene(box, pose, true), kOverlayCamera, {found()}, options);
   EXPECT_GT(greenness(image, 74, 60), 40);
   EXPECT_LT(greenness(image, 86, 60), 20) << "hidden half";
   EXPECT_LT(greenness(image, 20, 60), 20) << "wall";
@@ -98,8 +98,8 @@ TEST_F(OverlayTest, TintFillsOnlyTheVisibleSurface) {
 TEST_F(OverlayTest, FrameHasItsAxesInTheirColours) {
   OverlayOptions options = plain();
   options.frames = true;
-  options.width = 4 * kWidth;
-  const RgbImage image = draw_overlay(scene(box, pose, false), kCamera, {found()}, options);
+  options.width = 4 * kOverlayWidth;
+  const RgbImage image = draw_overlay(scene(box, pose, false), kOverlayCamera, {found()}, options);
   const double length = 0.15 * 2 * Eigen::Vector3d(0.02, 0.015, 0.01).norm();
   const int reach = static_cast<int>(4 * 300 * length / 0.5 * 0.7), cu = 4 * 80 - 2, cv = 4 * 60 - 2;
   const auto [r, g, b] = at(image, cu + reach, cv);
@@ -112,8 +112,8 @@ TEST_F(OverlayTest, TargetIsDrawnAtItsEntryPoint) {
   OverlayPose with_target = found();
   with_target.targets.push_back({"", {0.01, 0, -0.01}, {0, 0.5, 1}, 0.01, 0.004});
   const DepthImage depth = scene(box, pose, false);
-  const RgbImage without = draw_overlay(depth, kCamera, {found()}, plain());
-  const RgbImage image = draw_overlay(depth, kCamera, {with_target}, plain());
+  const RgbImage without = draw_overlay(depth, kOverlayCamera, {found()}, plain());
+  const RgbImage image = draw_overlay(depth, kOverlayCamera, {with_target}, plain());
   const int u = static_cast<int>(std::lround(79.5 + 300 * 0.01 / 0.49));
   const auto [r, g, b] = at(image, u, 60);
   EXPECT_GT(r, b + 60);
@@ -123,12 +123,12 @@ TEST_F(OverlayTest, TargetIsDrawnAtItsEntryPoint) {
 
 TEST_F(OverlayTest, LabelIsDrawnBesideTheObject) {
   OverlayOptions options = plain();
-  options.width = 8 * kWidth;
+  options.width = 8 * kOverlayWidth;
   OverlayPose labelled = found();
   const DepthImage depth = scene(box, pose, false);
-  const RgbImage without = draw_overlay(depth, kCamera, {labelled}, options);
+  const RgbImage without = draw_overlay(depth, kOverlayCamera, {labelled}, options);
   labelled.label = "box 0.97";
-  const RgbImage image = draw_overlay(depth, kCamera, {labelled}, options);
+  const RgbImage image = draw_overlay(depth, kOverlayCamera, {labelled}, options);
   int changed = 0;
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
@@ -145,7 +145,7 @@ TEST_F(OverlayTest, ZoomShowsTheObjectLarger) {
   OverlayOptions options = plain();
   const DepthImage depth = scene(box, pose, false);
   options.zoom = true;
-  const RgbImage image = draw_overlay(depth, kCamera, {found()}, options);
+  const RgbImage image = draw_overlay(depth, kOverlayCamera, {found()}, options);
   const auto green = [](const RgbImage& picture) {
     int count = 0;
     for (int v = 0; v < picture.height; ++v) {
@@ -153,7 +153,7 @@ TEST_F(OverlayTest, ZoomShowsTheObjectLarger) {
     }
     return count;
   };
-  EXPECT_GT(green(image), 1.5 * green(draw_overlay(depth, kCamera, {found()}, plain())));
+  EXPECT_GT(green(image), 1.5 * green(draw_overlay(depth, kOverlayCamera, {found()}, plain())));
 }
 
 TEST_F(OverlayTest, SameBitsAtAnyThreadCount) {
@@ -161,8 +161,8 @@ TEST_F(OverlayTest, SameBitsAtAnyThreadCount) {
   one.threads = 1;
   four.threads = 4;
   const DepthImage depth = scene(box, pose, true);
-  EXPECT_EQ(draw_overlay(depth, kCamera, {found()}, one).rgb,
-            draw_overlay(depth, kCamera, {found()}, four).rgb);
+  EXPECT_EQ(draw_overlay(depth, kOverlayCamera, {found()}, one).rgb,
+            draw_overlay(depth, kOverlayCamera, {found()}, four).rgb);
 }
 
 TEST_F(OverlayTest, OddPosesAndTextDoNoHarm) {
@@ -173,17 +173,17 @@ TEST_F(OverlayTest, OddPosesAndTextDoNoHarm) {
     pose_anywhere.camera_T_model = odd;
     pose_anywhere.label = "caf\xc3\xa9\n" + std::string(500, 'x');
     pose_anywhere.targets.push_back({"t", {0, 0, 0}, {0, 0, 1}, 0.01, 0.004});
-    EXPECT_GT(draw_overlay(depth, kCamera, {pose_anywhere}).rgb.size(), 0u);
+    EXPECT_GT(draw_overlay(depth, kOverlayCamera, {pose_anywhere}).rgb.size(), 0u);
   }
-  EXPECT_GT(draw_overlay({8, 8, std::vector<float>(64, 0.0f)}, kCamera, {}).rgb.size(), 0u);
+  EXPECT_GT(draw_overlay({8, 8, std::vector<float>(64, 0.0f)}, kOverlayCamera, {}).rgb.size(), 0u);
 }
 
 TEST_F(OverlayTest, RefusesUnsoundInput) {
   DepthImage depth = scene(box, pose, false);
   EXPECT_THROW(draw_overlay(depth, {0, 1, 0, 0}, {}), std::invalid_argument);
-  EXPECT_THROW(draw_overlay(depth, kCamera, {OverlayPose{}}), std::invalid_argument);
+  EXPECT_THROW(draw_overlay(depth, kOverlayCamera, {OverlayPose{}}), std::invalid_argument);
   depth.depth.pop_back();
-  EXPECT_THROW(draw_overlay(depth, kCamera, {}), std::invalid_argument);
+  EXPECT_THROW(draw_overlay(depth, kOverlayCamera, {}), std::invalid_argument);
 }
 
 TEST_F(OverlayTest, PngIsWrittenWholeOrNotAtAll) {
