@@ -6,7 +6,7 @@
 namespace edgepose {
 namespace {
 
-constexpr float kStep = 0.005f, kDiameter = 0.1f;
+constexpr float kGridStep = 0.005f, kModelDiameter = 0.1f;
 
 Scene bracket_scene() {
   fixtures::Random random(5);
@@ -28,8 +28,8 @@ SamplingOptions unthinned() {
 
 TEST(Sampling, ThinsTheEvenSurfaceAndKeepsEdges) {
   const Scene scene = bracket_scene();
-  const auto all = sample_scene(scene.data(), kStep, kDiameter, unthinned(), 1);
-  const auto points = sample_scene(scene.data(), kStep, kDiameter, thinned(), 1);
+  const auto all = sample_scene(scene.data(), kGridStep, kModelDiameter, unthinned(), 1);
+  const auto points = sample_scene(scene.data(), kGridStep, kModelDiameter, thinned(), 1);
   EXPECT_LT(points.size(), all.size() / 2);
   const auto edges = [](const auto& of) {
     return std::count_if(of.begin(), of.end(), [](const SampledPoint& p) { return p.edge; });
@@ -38,13 +38,13 @@ TEST(Sampling, ThinsTheEvenSurfaceAndKeepsEdges) {
   EXPECT_EQ(edges(points), edges(all));
   SamplingOptions even = thinned();
   even.keep_edges = false;
-  EXPECT_GT(sample_scene(scene.data(), kStep, kDiameter, even, 1).size(), points.size());
+  EXPECT_GT(sample_scene(scene.data(), kGridStep, kModelDiameter, even, 1).size(), points.size());
 }
 
 TEST(Sampling, PointsLieOnTheSurfaceAndAreTheSameForAnyThreads) {
   const Scene scene = bracket_scene();
-  const auto points = sample_scene(scene.data(), kStep, kDiameter, unthinned(), 1);
-  const auto again = sample_scene(scene.data(), kStep, kDiameter, unthinned(), 3);
+  const auto points = sample_scene(scene.data(), kGridStep, kModelDiameter, unthinned(), 1);
+  const auto again = sample_scene(scene.data(), kGridStep, kModelDiameter, unthinned(), 3);
   ASSERT_EQ(points.size(), again.size());
   const Scene::Data& data = scene.data();
   size_t off = 0;
@@ -57,7 +57,7 @@ TEST(Sampling, PointsLieOnTheSurfaceAndAreTheSameForAnyThreads) {
     const int u = static_cast<int>(std::lround(p.x() / p.z() * fixtures::kCamera.fx + fixtures::kCamera.cx));
     const int v = static_cast<int>(std::lround(p.y() / p.z() * fixtures::kCamera.fy + fixtures::kCamera.cy));
     ASSERT_TRUE(data.inside(u, v));
-    off += std::abs(p.z() - data.depth[data.index(u, v)]) > kStep / 2;
+    off += std::abs(p.z() - data.depth[data.index(u, v)]) > kGridStep / 2;
   }
   EXPECT_LT(off, points.size() / 20) << "only where a cell spans an edge";
 }
@@ -65,17 +65,17 @@ TEST(Sampling, PointsLieOnTheSurfaceAndAreTheSameForAnyThreads) {
 TEST(Sampling, LeavesOutWhatIsTooCoarse) {
   const Scene scene = bracket_scene();
   SamplingOptions fine;
-  fine.max_pixel_size = 0.001f / kDiameter;  // the table begins at some 0.25 m: a pixel spans 1 mm there
-  const auto all = sample_scene(scene.data(), kStep, kDiameter, {}, 1);
-  const auto near = sample_scene(scene.data(), kStep, kDiameter, fine, 1);
+  fine.max_pixel_size = 0.001f / kModelDiameter;  // the table begins at some 0.25 m: a pixel spans 1 mm there
+  const auto all = sample_scene(scene.data(), kGridStep, kModelDiameter, {}, 1);
+  const auto near = sample_scene(scene.data(), kGridStep, kModelDiameter, fine, 1);
   EXPECT_LT(near.size(), all.size());
   for (const SampledPoint& p : near) EXPECT_LE(p.surface.position.z() / fixtures::kCamera.fx, 0.00101);
 }
 
 TEST(LargePlanes, TheTableGoesTheBracketStays) {
   const Scene scene = bracket_scene();
-  const auto points = sample_scene(scene.data(), kStep, kDiameter, {}, 1);
-  const auto kept = drop_large_planes(points, kDiameter, scene.data().noise, 2);
+  const auto points = sample_scene(scene.data(), kGridStep, kModelDiameter, {}, 1);
+  const auto kept = drop_large_planes(points, kModelDiameter, scene.data().noise, 2);
   const fixtures::Plane table = fixtures::table();
   const auto above = [&](const SampledPoint& p) {
     return table.normal.dot(p.surface.position.cast<double>()) - table.offset > 0.004;

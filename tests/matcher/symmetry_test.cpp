@@ -22,7 +22,7 @@ TEST(FindSymmetries, BracketHasNone) {
 }
 
 TEST(FindSymmetries, CylinderTurnsAboutItsAxis) {
-  constexpr double kRadius = 0.03, kHeight = 0.1;
+  constexpr double kRadius = 0.03, kLength = 0.1;
   const Eigen::Vector3d centre(0.1, -0.2, 0.3);
   fixtures::Random random(2);
   std::vector<OrientedPoint> surface;
@@ -30,12 +30,12 @@ TEST(FindSymmetries, CylinderTurnsAboutItsAxis) {
     const double turn = random.uniform(0, 2 * std::numbers::pi);
     const Eigen::Vector3d out(std::cos(turn), std::sin(turn), 0);
     Eigen::Vector3d at, normal;
-    if (random.uniform(0, kHeight + kRadius) < kHeight) {  // the side's area to the caps' is height to radius
-      normal = out, at = kRadius * out + Eigen::Vector3d(0, 0, random.uniform(-kHeight / 2, kHeight / 2));
+    if (random.uniform(0, kLength + kRadius) < kLength) {  // the side's area to the caps' is height to radius
+      normal = out, at = kRadius * out + Eigen::Vector3d(0, 0, random.uniform(-kLength / 2, kLength / 2));
     } else {
       const double side = random.below(2) == 0 ? 1 : -1;
       normal = {0, 0, side};
-      at = kRadius * std::sqrt(random.uniform(0, 1)) * out + kHeight / 2 * normal;
+      at = kRadius * std::sqrt(random.uniform(0, 1)) * out + kLength / 2 * normal;
     }
     surface.push_back({(centre + at).cast<float>(), normal.cast<float>()});
   }
