@@ -30,14 +30,18 @@ float continued_depth(const Scene::Data& scene, int u, int v, int nu, int nv) {
 EDGEPOSE_WIDE_SIMD void mark_steps(const float* centre, std::array<const float*, 2 * kGap> rows, int width,
                                    float jump_for_depth, uint8_t* marked) {
   for (int u = kGap; u < width - kGap; ++u) {
-    const float z = centre[u], limit = z + jump_for_depth * z;
-    bool step = false;
+    float least = centre[u], most = centre[u];
 #pragma GCC unroll 3
-    for (int k = 1; k <= kGap; ++k)
-      step |= (centre[u - k] <= 0) | (centre[u - k] > limit) | (centre[u + k] <= 0) | (centre[u + k] > limit);
+    for (int k = 1; k <= kGap; ++k) {
+      least = std::min(least, std::min(centre[u - k], centre[u + k]));
+      most = std::max(most, std::max(centre[u - k], centre[u + k]));
+    }
 #pragma GCC unroll 6
-    for (size_t k = 0; k < rows.size(); ++k) step |= (rows[k][u] <= 0) | (rows[k][u] > limit);
-    marked[u] = step;
+    for (const float* row : rows) {
+      least = std::min(least, row[u]);
+      most = std::max(most, row[u]);
+    }
+    marked[u] = least <= 0 || most > centre[u] + jump_for_depth * centre[u] ? 1 : 0;
   }
 }
 

@@ -22,7 +22,7 @@ struct FeatureColumns {
 };
 
 EDGEPOSE_WIDE_SIMD void compute_features(ReferenceNumbers r, Partners p, size_t count, FeatureColumns out) {
-#pragma GCC ivdep
+  EDGEPOSE_NO_OVERLAP
   for (size_t i = 0; i < count; ++i) {
     const float dx = r.x - p.x[i], dy = r.y - p.y[i], dz = r.z - p.z[i];  // d = p_r - p_s
     const float squared = dx * dx + dy * dy + dz * dz;

@@ -53,7 +53,7 @@ struct SearchOptions {
   int fine_candidates = 4;     ///< of these that are refined finely, likewise
   float sure_once = 0.95f;     ///< [0, 1] a candidate surer than this ends the search; above 1: never
   float sure_twice = 0.85f;    ///< the same for one that two batches led to, each by itself
-  float sure_thrice = 0.75f;    ///< the same for three and more
+  float sure_thrice = 0.75f;   ///< the same for three and more
 
   std::string check() const;
 };

@@ -82,7 +82,7 @@ EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* othe
     const float du = static_cast<float>(kOffsets[k]);
     reach[k] = slope * (std::sqrt(du * du + dv * dv) + 2.f);  // the two pixels more absorb noise
   }
-#pragma GCC ivdep
+  EDGEPOSE_NO_OVERLAP
   for (int u = 0; u < width; ++u) {
     float rn = 0, rx = 0, rxx = 0, rw = 0, rxw = 0, rww = 0;
 #pragma GCC unroll 6
@@ -115,7 +115,7 @@ EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, in
               *yw = sums.yw.data(), *ww = sums.ww.data();
   float *nx = planes.x.data(), *ny = planes.y.data(), *nz = planes.z.data(), *depth = planes.depth.data(),
         *residual = planes.residual.data();
-#pragma GCC ivdep
+  EDGEPOSE_NO_OVERLAP
   for (int u = 0; u < width; ++u) {
     const float n = std::max(sn[u], 1.f), mx = x[u] / n, my = y[u] / n, mw = w[u] / n;
     const float cxx = xx[u] - n * mx * mx, cxy = xy[u] - n * mx * my, cyy = yy[u] - n * my * my;

@@ -52,7 +52,8 @@ struct PixelProjection {
   }
   Eigen::Vector3f ray(int64_t pixel_index) const {
     const auto index = static_cast<uint32_t>(pixel_index), columns = static_cast<uint32_t>(width);
-    const auto u = static_cast<float>(index % columns), v = static_cast<float>(index / columns);
+    const uint32_t column = index % columns, row = index / columns;
+    const auto u = static_cast<float>(column), v = static_cast<float>(row);
     return {(u - cx) / fx, (v - cy) / fy, 1.f};
   }
 

@@ -11,3 +11,10 @@
 #else
 #define EDGEPOSE_WIDE_SIMD
 #endif
+
+/// Before a loop whose arrays do not overlap, so that the compiler need not check that.
+#if defined(__GNUC__) && !defined(__clang__)
+#define EDGEPOSE_NO_OVERLAP _Pragma("GCC ivdep")
+#else
+#define EDGEPOSE_NO_OVERLAP
+#endif
