@@ -23,15 +23,17 @@ build() { # preset, targets...
   cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
 }
-# Runs the tests of some folders (all: "."), quietly unless one fails.
+# Runs the test programs of some folders (all: "."), each as one process, so that what its tests share is made once;
+# quietly unless one fails.
 run_tests() { # build directory, folders...
-  local dir=$1 folder log
+  local dir=$1 folder program log
   shift
   for folder in "$@"; do
-    [ -f "$dir/tests/$folder/CTestTestfile.cmake" ] || continue
-    log=$dir/ctest_$(basename "$folder").log
-    ctest --test-dir "$dir/tests/$folder" -j 2 -LE slow --output-on-failure >"$log" 2>&1 || { cat "$log"; exit 1; }
-    echo "tests/$folder: $(grep 'tests passed' "$log")"
+    while read -r program; do
+      log=$dir/$(basename "$program").log
+      "$program" --gtest_brief=1 >"$log" 2>&1 || { cat "$log"; exit 1; }
+      echo "tests/$folder, $(basename "$program"): $(grep -E '^\[==========\].*ran' "$log")"
+    done < <(ctest --test-dir "$dir/tests/$folder" -N -V -LE slow | grep -oE "$PWD/$dir/bin/[a-z_]+_test" | sort -u)
   done
 }
 # The program, instrumented for races, on the sample with more threads than cores.
