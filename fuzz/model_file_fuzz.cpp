@@ -26,6 +26,7 @@ struct Block {
 uint64_t checksum(std::span<const std::byte> bytes) {
   uint64_t hash = 0xcbf29ce484222325;
   for (size_t i = 0; i + 8 <= bytes.size(); i += 8) {
+    if (i == offsetof(ModelHeader, checksum)) continue;
     uint64_t word;
     std::memcpy(&word, bytes.data() + i, 8);
     hash = (hash ^ word) * 0x100000001b3;
@@ -34,14 +35,14 @@ uint64_t checksum(std::span<const std::byte> bytes) {
   return hash;
 }
 
-/// Makes everything up to the checksum right, so that the checks behind it are reached.
+/// Makes magic, version, size and checksum right, so that the checks behind it are reached.
 void seal(std::span<std::byte> bytes) {
   if (bytes.size() < sizeof(ModelHeader)) return;
-  constexpr size_t kChecksumEnd = offsetof(ModelHeader, checksum) + sizeof(uint64_t);
-  const uint64_t size = bytes.size(), sum = checksum(bytes.subspan(kChecksumEnd));
+  const uint64_t size = bytes.size();
   std::memcpy(bytes.data(), kModelMagic.data(), kModelMagic.size());
   std::memcpy(bytes.data() + offsetof(ModelHeader, version), &kModelVersion, sizeof(kModelVersion));
   std::memcpy(bytes.data() + offsetof(ModelHeader, size), &size, sizeof(size));
+  const uint64_t sum = checksum(bytes);
   std::memcpy(bytes.data() + offsetof(ModelHeader, checksum), &sum, sizeof(sum));
 }
 

@@ -23,23 +23,29 @@ struct TrainOptions {
   float max_normal_angle_deg = 175;  ///< [degrees] ... or by more; 180 keeps all
   bool visibility_filter = true;     ///< drop surface that no outside view sees (insides of CT meshes)
   int views = 240;  ///< view directions for visibility and contours; time and file size grow with it
-  bool find_symmetries = true;  ///< match the model against itself
+  bool find_symmetries = true;  ///< match the model against itself, unless symmetries are declared
   uint64_t seed = 1;            ///< of the surface sampling
+  int max_table_mb = 256;       ///< [MB] training refuses steps that would make a larger table of point pairs
   int threads = 0;              ///< 0 = all cores; the result does not depend on it
 
   /// Empty if sound, else one line that names the bad field.
   std::string check() const;
 };
 
-/// A symmetry that the object has: `model_T_model` maps the object onto itself.
+/// A line about which the object is round.
 struct SymmetryAxis {
   Eigen::Vector3d point;      ///< [m] on the axis, model frame
   Eigen::Vector3d direction;  ///< unit
 };
+/// The rotations that map the object onto itself: each of `discrete` (`model_T_model`), any turn about each
+/// of `continuous`, and their products. What training finds is complete: `discrete` with the identity is a
+/// group; a body of revolution has one axis, and one half turn across it if it may be turned over; a sphere
+/// has three axes at right angles through its centre.
 struct Symmetries {
   std::vector<RigidTransform> discrete;  ///< without the identity
   std::vector<SymmetryAxis> continuous;  ///< any rotation about the axis
   bool empty() const { return discrete.empty() && continuous.empty(); }
+  bool is_sphere() const;  ///< any rotation at all: two axes that are not parallel
 };
 
 /// What training noticed about the mesh; `edgepose info` and `train` tell the user.
@@ -78,8 +84,8 @@ class Model {
 using Progress = std::function<void(double)>;
 
 /// Trains a model (paper Sec. 4.2, Fig. 2 a-e). `mesh` in metres; normals are computed where it has none.
-/// `declared` symmetries (BOP models_info.json) are added to those found.
-/// Throws std::invalid_argument if the options are unsound or the mesh has no usable surface.
+/// `declared` symmetries (BOP models_info.json) are taken as they are: where there are any, none are searched
+/// for. Throws std::invalid_argument if the options are unsound or the mesh has no usable surface.
 Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions& options = {},
                   const Symmetries& declared = {}, const Progress& progress = {});
 

@@ -1,5 +1,6 @@
 #include "matcher/model_block.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -8,14 +9,15 @@ namespace edgepose {
 namespace {
 
 constexpr size_t kAlignment = 64;
-constexpr size_t kChecksumEnd = offsetof(ModelHeader, checksum) + sizeof(uint64_t);
 
-/// FNV-1a over 8-byte words (the block's size is a multiple of 64).
-uint64_t checksum(std::span<const std::byte> bytes) {
+/// FNV-1a over 8-byte words (the block's size is a multiple of 64), except the one that holds the checksum.
+uint64_t checksum(std::span<const std::byte> block) {
+  static_assert(offsetof(ModelHeader, checksum) % 8 == 0);
   uint64_t hash = 0xcbf29ce484222325;
-  for (size_t i = 0; i + 8 <= bytes.size(); i += 8) {
+  for (size_t i = 0; i + 8 <= block.size(); i += 8) {
+    if (i == offsetof(ModelHeader, checksum)) continue;
     uint64_t word;
-    std::memcpy(&word, bytes.data() + i, 8);
+    std::memcpy(&word, block.data() + i, 8);
     hash = (hash ^ word) * 0x100000001b3;
     hash ^= hash >> 29;
   }
@@ -43,10 +45,11 @@ void require_ascending(std::span<const T> offsets, size_t expected_size, size_t 
   if (!sound) refuse(std::string("ascending ") + name, "others");
 }
 
+bool is_unit(const Eigen::Vector3f& v) { return std::abs(v.squaredNorm() - 1) < 0.01f; }
+
 bool sound(std::span<const OrientedPoint> points, double limit) {
   for (const auto& p : points)
-    if (!(p.position.squaredNorm() <= limit * limit) || !(std::abs(p.normal.squaredNorm() - 1) < 0.01f))
-      return false;
+    if (!(p.position.squaredNorm() <= limit * limit) || !is_unit(p.normal)) return false;
   return true;
 }
 
@@ -65,11 +68,26 @@ void check_values(const ModelHeader& h) {
       !in(h.distance_step, 1e-6, 1e3))
     refuse("plausible lengths in the header", "a length out of range");
   if (h.distance_bins < 1 || h.distance_bins > 1000 || h.angle_bins < 1 || h.angle_bins > 360 ||
-      h.normal_bin_last >= h.angle_bins)
+      h.normal_bin_first > h.normal_bin_last || h.normal_bin_last >= h.angle_bins)
     refuse("plausible table dimensions in the header", "dimensions out of range");
   for (int i = 0; i < 3; ++i)
     if (!in(h.box_min[i], -1e4, 1e4) || !in(h.box_max[i], h.box_min[i], 1e4))
       refuse("a plausible bounding box in the header", "values out of range");
+}
+
+void check_symmetries(const Model::View& v) {
+  for (size_t i = 0; i < v.discrete.size(); i += 16) {
+    const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> m(v.discrete.data() + i);
+    const Eigen::Matrix3d r = m.topLeftCorner<3, 3>();
+    if (!(m.rightCols<1>().cwiseAbs().maxCoeff() <= 1e4) || !r.allFinite() || !r.isUnitary(1e-3) ||
+        !(r.determinant() > 0) || m.row(3) != Eigen::RowVector4d::UnitW())
+      refuse("rigid motions as symmetries", "others");
+  }
+  for (size_t i = 0; i < v.continuous.size(); i += 6) {
+    const Eigen::Map<const Eigen::Vector3d> point(v.continuous.data() + i), direction(point.data() + 3);
+    if (!(point.norm() <= 1e4) || !(std::abs(direction.norm() - 1) < 1e-3))
+      refuse("axes with a unit direction as symmetries", "others");
+  }
 }
 
 void check_contents(const Model::View& v) {
@@ -89,9 +107,14 @@ void check_contents(const Model::View& v) {
   if (v.support_normals.size() != v.dense_points.size())
     refuse("a support normal for each dense point", "another number");
   for (const auto& n : v.support_normals)
-    if (!(std::abs(n.squaredNorm() - 1) < 0.01f)) refuse("unit support normals", "others");
+    if (!is_unit(n)) refuse("unit support normals", "others");
+  for (const auto& direction : v.view_directions)
+    if (!is_unit(direction)) refuse("unit view directions", "others");
+  for (const auto& c : v.contours)
+    if (!(c.position.squaredNorm() <= 1e8f) || !is_unit(c.outwards)) refuse("finite outlines", "others");
   if (v.discrete.size() % 16 != 0 || v.continuous.size() % 6 != 0)
     refuse("whole symmetries", "a part of one");
+  check_symmetries(v);
 }
 
 }  // namespace
@@ -105,8 +128,7 @@ Model Model::from_block(std::span<const std::byte> block, std::shared_ptr<const 
   auto view = std::make_shared<View>();
   const auto* header = reinterpret_cast<const ModelHeader*>(block.data());
   check_header(*header, block.size());
-  if (checksum(block.subspan(kChecksumEnd)) != header->checksum)
-    refuse("a matching checksum", "another: the file is damaged");
+  if (checksum(block) != header->checksum) refuse("a matching checksum", "another: the file is damaged");
   check_values(*header);
 
   view->header = header;
@@ -160,7 +182,7 @@ Model make_model(const ModelParts& parts) {
   header.version = kModelVersion;
   header.size = block->size();
   std::memcpy(block->data(), &header, sizeof(header));
-  header.checksum = checksum(std::span<const std::byte>(*block).subspan(kChecksumEnd));
+  header.checksum = checksum(*block);
   std::memcpy(block->data(), &header, sizeof(header));
   return Model::from_block(*block, block);
 }

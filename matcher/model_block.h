@@ -14,7 +14,7 @@
 namespace edgepose {
 
 inline constexpr std::array<char, 8> kModelMagic = {'e', 'd', 'g', 'e', 'p', 'o', 's', 'e'};
-inline constexpr uint32_t kModelVersion = 1;
+inline constexpr uint32_t kModelVersion = 2;
 
 /// One pair in the hash table.
 struct PairEntry {
@@ -45,7 +45,7 @@ struct ModelHeader {
   uint32_t version;
   uint32_t distance_bins;  ///< buckets of the pair distance; a bucket is distance_step wide
   uint64_t size;           ///< of the whole block, bytes
-  uint64_t checksum;       ///< FNV-1a over everything behind this field
+  uint64_t checksum;       ///< FNV-1a over every byte but these 8
   double diameter;         ///< [m]
   double sampling_step;    ///< [m] between `points`
   double dense_step;       ///< [m] between dense points

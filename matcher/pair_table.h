@@ -14,10 +14,22 @@ struct PairTable {
 
 /// Which pairs are stored.
 struct PairFilter {
-  uint32_t normal_bin_first, normal_bin_last;    ///< buckets of the angle between the normals that are kept
+  float min_normal_angle, max_normal_angle;      ///< [rad] kept angles between the normals, ends included
   std::vector<std::vector<uint64_t>> seen_from;  ///< for each point the set of views; pairs without a common
                                                  ///< view can never be measured together and are left out
 };
+
+/// The buckets of the angle between the normals that can hold a kept pair; the scene looks at no others.
+std::pair<uint32_t, uint32_t> normal_bins(const PairFilter& filter, const FeatureQuantiser& quantiser);
+
+/// Bytes that the table would take: exact for the buckets; for the pairs to about 5 %, counted at a few
+/// hundred of the points.
+struct TableSize {
+  double bucket_bytes, pair_bytes;
+  double total() const { return bucket_bytes + pair_bytes; }
+};
+TableSize estimate_table(const std::vector<OrientedPoint>& points, const FeatureQuantiser& quantiser,
+                         const PairFilter& filter);
 
 PairTable build_pair_table(const std::vector<OrientedPoint>& points, const FeatureQuantiser& quantiser,
                            const PairFilter& filter, int threads);

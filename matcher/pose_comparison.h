@@ -17,7 +17,7 @@ class PoseComparison {
 
  private:
   float diameter_;
-  Eigen::Vector3f centre_;
+  Eigen::Vector3f centre_;              // a point that no symmetry moves
   std::vector<Eigen::Matrix3f> turns_;  // of the discrete symmetries, the identity first
   std::vector<Eigen::Vector3f> axes_;   // of the continuous ones
   bool any_turn_ = false;               // a sphere

@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 #include "matcher/model.h"
 #include "matcher/model_block.h"
@@ -21,19 +22,32 @@ constexpr float kSupportRadius = 0.035f;      // [d] of those compared with the 
 constexpr float kDenseStep = 0.018f;          // [d]
 constexpr size_t kMaxDensePoints = 8000;
 constexpr size_t kContourPointsPerView = 120;
+constexpr uint8_t kEnoughViews = 2;  // that show a point: one alone may look through a hole between samples
+constexpr size_t kViewsAtOnce = 16;
 
 /// The surface that some outside view shows.
 std::vector<OrientedPoint> visible_surface(const std::vector<OrientedPoint>& surface,
                                            const std::vector<Eigen::Vector3f>& directions, float diameter,
                                            const TrainOptions& options) {
   if (!options.visibility_filter) return surface;
-  const auto views = look_from_all_sides(surface, surface, directions, diameter, 0, options.threads);
-  std::vector<OrientedPoint> kept;
-  for (size_t i = 0; i < surface.size(); ++i) {
-    size_t seen = 0;
-    for (const auto& view : views) seen += view.visible[i];
-    if (seen >= 2) kept.push_back(surface[i]);
+  // A few views from all around show most points twice: the others need to be asked only for the rest.
+  const size_t rounds = (directions.size() + kViewsAtOnce - 1) / kViewsAtOnce;
+  std::vector<uint8_t> seen(surface.size(), 0);
+  for (size_t round = 0; round < rounds; ++round) {
+    std::vector<Eigen::Vector3f> some;
+    for (size_t i = round; i < directions.size(); i += rounds) some.push_back(directions[i]);
+    std::vector<uint32_t> open;
+    std::vector<OrientedPoint> queries;
+    for (uint32_t i = 0; i < surface.size(); ++i)
+      if (seen[i] < kEnoughViews) open.push_back(i), queries.push_back(surface[i]);
+    if (open.empty()) break;
+    for (const auto& view : look_from_all_sides(surface, queries, some, diameter, 0, options.threads))
+      for (size_t k = 0; k < open.size(); ++k)
+        seen[open[k]] += view.visible[k] && seen[open[k]] < kEnoughViews;
   }
+  std::vector<OrientedPoint> kept;
+  for (size_t i = 0; i < surface.size(); ++i)
+    if (seen[i] >= kEnoughViews) kept.push_back(surface[i]);
   return kept;
 }
 
@@ -49,19 +63,35 @@ void store_views(const std::vector<ViewVisibility>& views, ModelParts& parts) {
   }
 }
 
-PairFilter pair_filter(const std::vector<ViewVisibility>& views, size_t points,
-                       const FeatureQuantiser& quantiser, const TrainOptions& options) {
+/// `first`: where the table's points begin among those that the views tell of.
+PairFilter pair_filter(const std::vector<ViewVisibility>& views, size_t first, size_t points,
+                       const TrainOptions& options) {
+  constexpr float kDegrees = 180, kRadians = std::numbers::pi_v<float>;
   PairFilter filter;
-  const float step_deg = 180.f / static_cast<float>(quantiser.angle_bins);
-  // Whole buckets only, so that the scene can skip the same ones.
-  filter.normal_bin_first = static_cast<uint32_t>(options.min_normal_angle_deg / step_deg + 0.01f);
-  filter.normal_bin_last =
-      static_cast<uint32_t>(std::ceil(options.max_normal_angle_deg / step_deg - 0.01f)) - 1;
+  filter.min_normal_angle = options.min_normal_angle_deg / kDegrees * kRadians;
+  filter.max_normal_angle = options.max_normal_angle_deg / kDegrees * kRadians;
   filter.seen_from.assign(points, std::vector<uint64_t>((views.size() + 63) / 64, 0));
   for (size_t v = 0; v < views.size(); ++v)
     for (size_t i = 0; i < points; ++i)
-      if (views[v].visible[i]) filter.seen_from[i][v / 64] |= uint64_t{1} << (v % 64);
+      if (views[v].visible[first + i]) filter.seen_from[i][v / 64] |= uint64_t{1} << (v % 64);
   return filter;
+}
+
+FeatureQuantiser make_quantiser(const TrainOptions& options, float diameter) {
+  const auto angle_bins = static_cast<uint32_t>(std::lround(180 / options.angle_step_deg));
+  return {1 / (options.distance_step * diameter), static_cast<float>(angle_bins) / std::numbers::pi_v<float>,
+          static_cast<uint32_t>(std::ceil(1 / options.distance_step - 1e-4f)) + 1, angle_bins};
+}
+
+void require_affordable(const TableSize& table, int limit_mb) {
+  constexpr double kMega = 1e6;
+  if (table.total() <= limit_mb * kMega) return;
+  const bool buckets = table.bucket_bytes > table.pair_bytes;
+  throw std::invalid_argument(std::string(buckets ? "angle_step_deg, distance_step" : "sampling_step") +
+                              ": expected a table of at most max_table_mb = " + std::to_string(limit_mb) +
+                              " MB, found about " + std::to_string(std::lround(table.total() / kMega)) +
+                              " MB, most of it " +
+                              (buckets ? "buckets; take larger steps" : "point pairs; take a larger step"));
 }
 
 void store_box(const std::vector<OrientedPoint>& points, ModelHeader& header) {
@@ -86,6 +116,8 @@ std::string TrainOptions::check() const {
         max_normal_angle_deg <= 180))
     return "min_normal_angle_deg, max_normal_angle_deg: expected 0 <= min < max <= 180 degrees";
   if (views < 20 || views > 2000) return "views: expected 20 to 2000";
+  if (max_table_mb < 1 || max_table_mb > 4096) return "max_table_mb: expected 1 to 4096 MB";
+  if (threads < 0) return "threads: expected 0 (all cores) or more";
   return "";
 }
 
@@ -120,18 +152,16 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
   parts.dense_points = smooth_normals(surface, dense, kDenseNormalRadius * diameter, options.threads);
   for (const OrientedPoint& p : smooth_normals(surface, dense, kSupportRadius * diameter, options.threads))
     parts.support_normals.push_back(p.normal);
-  store_views(look_from_all_sides(surface, parts.dense_points, directions, diameter, kContourPointsPerView,
-                                  options.threads),
-              parts);
+  std::vector<OrientedPoint> queries = parts.dense_points;
+  queries.insert(queries.end(), parts.points.begin(), parts.points.end());
+  const auto views =
+      look_from_all_sides(surface, queries, directions, diameter, kContourPointsPerView, options.threads);
+  store_views(views, parts);
   report(0.7);
 
-  FeatureQuantiser quantiser{1 / (options.distance_step * diameter), 0,
-                             static_cast<uint32_t>(std::ceil(1 / options.distance_step - 1e-4f)) + 1,
-                             static_cast<uint32_t>(std::lround(180 / options.angle_step_deg))};
-  quantiser.inverse_angle_step = static_cast<float>(quantiser.angle_bins) / std::numbers::pi_v<float>;
-  const auto coarse_views =
-      look_from_all_sides(surface, parts.points, directions, diameter, 0, options.threads);
-  const PairFilter filter = pair_filter(coarse_views, parts.points.size(), quantiser, options);
+  const FeatureQuantiser quantiser = make_quantiser(options, diameter);
+  const PairFilter filter = pair_filter(views, parts.dense_points.size(), parts.points.size(), options);
+  require_affordable(estimate_table(parts.points, quantiser, filter), options.max_table_mb);
   PairTable table = build_pair_table(parts.points, quantiser, filter, options.threads);
   parts.offsets = std::move(table.offsets);
   parts.entries = std::move(table.entries);
@@ -140,15 +170,14 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
   ModelHeader& h = parts.header;
   h.distance_bins = quantiser.distance_bins;
   h.angle_bins = quantiser.angle_bins;
-  h.normal_bin_first = filter.normal_bin_first;
-  h.normal_bin_last = filter.normal_bin_last;
+  std::tie(h.normal_bin_first, h.normal_bin_last) = normal_bins(filter, quantiser);
   h.diameter = diameter;
   h.sampling_step = options.sampling_step * diameter;
   h.dense_step = kDenseStep * diameter;
   h.distance_step = options.distance_step * diameter;
   store_box(surface, h);
-  store_symmetries(options.find_symmetries ? find_symmetries(parts.dense_points, diameter) : Symmetries{},
-                   declared, parts);
+  const bool search = options.find_symmetries && declared.empty();
+  store_symmetries(search ? find_symmetries(parts.dense_points, surface, diameter) : declared, parts);
   report(1);
   return make_model(parts);
 }

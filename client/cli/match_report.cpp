@@ -1,6 +1,5 @@
 #include "client/cli/match_report.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <ostream>
 
 #include "client/cli/text.h"
+#include "client/cli/worst_sigma.h"
 
 namespace edgepose {
 namespace {
@@ -58,30 +58,26 @@ json to_json(const Symmetries& symmetries) {
   for (const SymmetryAxis& axis : symmetries.continuous) {
     continuous.push_back({{"point_m", to_array(axis.point)}, {"direction", to_array(axis.direction)}});
   }
-  return {{"discrete_model_T_model", discrete}, {"continuous", continuous}};
-}
-
-/// One standard deviation along the worst direction, of rows and columns [first, first + 3).
-double worst_sigma(const Eigen::Matrix<double, 6, 6>& covariance, Eigen::Index first) {
-  const Eigen::Matrix3d block = covariance.block<3, 3>(first, first);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  return {{"discrete_model_T_model", discrete},
+          {"continuous", continuous},
+          {"any_rotation", symmetries.is_sphere()}};
 }
 
 void print_detection(std::ostream& out, const std::string& name, const Detection& detection, double seconds) {
-  const Eigen::Vector3d t = 1e3 * detection.camera_T_model.translation();
+  const auto shown = [](double value) { return rounded(value, 2); };
+  const Eigen::Vector3d t = (1e3 * detection.camera_T_model.translation()).unaryExpr(shown);
   const Eigen::AngleAxisd turn(detection.camera_T_model.linear());
-  const Eigen::Vector3d r = kDegrees * turn.angle() * turn.axis();
+  const Eigen::Vector3d r = (kDegrees * turn.angle() * turn.axis()).unaryExpr(shown);
   out << formatted(
       "%-16.16s %-5s %8.2f %8.2f %8.2f  %7.2f %7.2f %7.2f  %5.2f %5.2f %5.2f %5.2f %6.2f  %7.1f\n",
       name.c_str(), detection.accepted ? "yes" : "no", t.x(), t.y(), t.z(), r.x(), r.y(), r.z(),
-      detection.score, detection.coverage, detection.violations, detection.edge_score, detection.margin,
-      1e3 * seconds);
+      detection.score, detection.coverage, detection.violations, detection.edge_score,
+      shown(detection.margin), 1e3 * seconds);
 }
 
 void print_certainty(std::ostream& out, const Detection& detection) {
-  const double shift = 1e3 * worst_sigma(detection.covariance, 3);
-  const double turn = kDegrees * worst_sigma(detection.covariance, 0);
+  const double shift = 1e3 * worst_sigma(detection.covariance.bottomRightCorner<3, 3>());
+  const double turn = kDegrees * worst_sigma(detection.covariance.topLeftCorner<3, 3>());
   if (shift > 0 || turn > 0) {
     out << formatted("%-16s one sigma, worst direction: %.3f mm at the centre, %.3f degrees\n", "", shift,
                      turn);

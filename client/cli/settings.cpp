@@ -125,6 +125,7 @@ std::vector<SettingKey> setting_keys(Settings& settings) {
       {"train.views", &train.views},
       {"train.find_symmetries", &train.find_symmetries},
       {"train.seed", &train.seed},
+      {"train.max_table_mb", &train.max_table_mb},
       {"train.threads", &train.threads},
       {"scene.min_depth", &scene.min_depth},
       {"scene.max_depth", &scene.max_depth},

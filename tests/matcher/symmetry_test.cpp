@@ -13,7 +13,7 @@ Symmetries symmetries_of(const std::vector<OrientedPoint>& surface) {
   std::vector<OrientedPoint> points;
   for (uint32_t i : thin_out(surface, {0.144f * d, 0.072f * d, 0.036f * d, 0.018f * d}))
     points.push_back(surface[i]);
-  return find_symmetries(points, d);
+  return find_symmetries(points, surface, d);
 }
 
 TEST(FindSymmetries, BracketHasNone) {
