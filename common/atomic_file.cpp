@@ -1,73 +1,63 @@
 #include "common/atomic_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <string>
-
 #include "common/error.h"
+#include "common/output_target.h"
 
 namespace edgepose {
 namespace {
 
-/// The temporary file: removed again unless it was renamed into place.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& target) : path_(target.string() + ".XXXXXX") {
-    descriptor_ = mkstemp(path_.data());
-    if (descriptor_ < 0) fail(target, "cannot create a file beside it");
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (!path_.empty()) unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void write_all(const std::filesystem::path& target, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(target, "cannot write");
-      bytes = bytes.subspan(static_cast<size_t>(written));
-    }
-  }
-
-  void rename_to(const std::filesystem::path& target) {
-    if (fchmod_to_default() != 0 || fsync(descriptor_) != 0) fail(target, "cannot flush to disk");
-    if (rename(path_.c_str(), target.c_str()) != 0) fail(target, "cannot rename into place");
-    path_.clear();
-  }
-
- private:
-  /// mkstemp makes 0600; users expect what their umask says.
-  int fchmod_to_default() const {
-    const mode_t mask = umask(0);
-    umask(mask);
-    return fchmod(descriptor_, 0666 & ~mask);
-  }
-  [[noreturn]] static void fail(const std::filesystem::path& target, const char* doing) {
-    throw InputError(target.string() + ": " + doing + ": " + std::strerror(errno));
-  }
-
-  std::string path_;
-  int descriptor_ = -1;
-};
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  TemporaryFile file(path);
-  file.write_all(path, bytes);
-  file.rename_to(path);
+  TemporaryFile file(output_target(path));
+  file.write(bytes);
+  file.rename_to_target();
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view text) {
-  write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+  write_file_atomically(path, bytes_of(text));
+}
+
+FileGroup::~FileGroup() {
+  files_.clear();
+  std::error_code ignored;  // a folder that somebody else has put something into stays
+  for (auto folder = new_folders_.rbegin(); folder != new_folders_.rend(); ++folder)
+    std::filesystem::remove(*folder, ignored);
+}
+
+void FileGroup::make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::vector<std::filesystem::path> missing;
+  for (auto above = std::filesystem::absolute(folder); !std::filesystem::exists(above, failure);
+       above = above.parent_path()) {
+    missing.push_back(above);
+    if (!above.has_relative_path()) break;
+  }
+  for (auto path = missing.rbegin(); path != missing.rend(); ++path)
+    if (std::filesystem::create_directory(*path, failure)) new_folders_.push_back(*path);
+  if (!std::filesystem::is_directory(folder, failure))
+    throw InputError::at(folder.string(), "a folder that can be made", "none", "name another");
+}
+
+std::filesystem::path FileGroup::add(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  TemporaryFile file(output_target(path));
+  file.write(bytes);
+  files_.push_back(std::move(file));
+  return files_.back().path();
+}
+
+std::filesystem::path FileGroup::add(const std::filesystem::path& path, std::string_view text) {
+  return add(path, bytes_of(text));
+}
+
+void FileGroup::commit() {
+  for (TemporaryFile& file : files_) file.rename_to_target();
+  files_.clear();
+  new_folders_.clear();
 }
 
 }  // namespace edgepose

@@ -5,10 +5,12 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/naming.h"
 #include "evaluation/resources.h"
+#include "files/camera_check.h"
 #include "files/depth_file.h"
 #include "files/mesh_file.h"
-#include "files/mesh_health.h"
+#include "files/sound_mesh.h"
 
 namespace edgepose {
 namespace {
@@ -16,16 +18,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The matcher and the readers know nothing of files: says which one a complaint is about.
-template <typename Work>
-auto naming(const std::string& file, Work&& work) {
-  try {
-    return work();
-  } catch (const std::invalid_argument& error) {
-    throw InputError(file + ": " + error.what());
-  }
 }
 
 void require_sound(const EvalOptions& options) {
@@ -72,18 +64,16 @@ struct SceneInput {
 };
 
 SceneInput read_input(const TestImage& image) {
-  if (image.cloud.empty()) return {read_depth_png(image.depth, image.depth_scale), image.camera};
+  if (image.cloud.empty()) {
+    SceneInput input{read_depth_png(image.depth, image.depth_scale), image.camera};
+    check_camera(image.camera, "camera of " + image.depth.string(), input.depth.width, input.depth.height);
+    return input;
+  }
   const Cloud cloud = read_cloud(image.cloud, LengthUnit::kMillimetre);
   const auto start = Clock::now();
   ProjectedCloud projected =
       naming(image.cloud.string(), [&] { return project_cloud(cloud.vertices, cloud.viewpoint); });
   return {std::move(projected.image), projected.camera, projected.cloud_T_camera, seconds_since(start)};
-}
-
-Mesh read_sound_mesh(const std::filesystem::path& file) {
-  Mesh mesh = read_mesh(file);
-  MeshHealth health = check_mesh(mesh);
-  return mend_mesh(std::move(mesh), health, file.string());
 }
 
 /// Asks for all models of one image; adds rows and times.
@@ -101,7 +91,7 @@ void evaluate_image(const TestImage& image, const std::vector<const TrainedModel
   std::vector<const Model*> models;
   for (const TrainedModel* model : asked) {
     const auto asked_at = Clock::now();
-    results.push_back(match(scene, model->model, options.match));
+    results.push_back(naming(file, [&] { return match(scene, model->model, options.match); }));
     models.push_back(&model->model);
     rows.push_back(row_for(image, *model));
     rows.back().seconds = seconds_since(asked_at) + preprocessing;
@@ -124,7 +114,8 @@ void evaluate_image(const TestImage& image, const std::vector<const TrainedModel
 }  // namespace
 
 std::string EvalOptions::check() const {
-  if (threads < 0) return "threads: expected 0 (all cores) or more, found " + std::to_string(threads);
+  if (threads && *threads < 0)
+    return "threads: expected 0 (all cores) or more, found " + std::to_string(*threads);
   for (const std::string& complaint : {train.check(), scene.check(), match.check()})
     if (!complaint.empty()) return complaint;
   return "";
@@ -134,7 +125,7 @@ std::vector<TrainedModel> train_models(const TestSet& set, const EvalOptions& op
                                        const Progress& progress) {
   require_sound(options);
   TrainOptions train = options.train;
-  train.threads = options.threads;
+  if (options.threads) train.threads = *options.threads;
   const double count = static_cast<double>(set.objects.size());
   std::vector<TrainedModel> models;
   for (const TestObject& object : set.objects) {
@@ -142,7 +133,7 @@ std::vector<TrainedModel> train_models(const TestSet& set, const EvalOptions& op
     const Progress part = [&](double share) {
       if (progress) progress((done + share) / count);
     };
-    const Mesh mesh = read_sound_mesh(object.mesh);
+    const Mesh mesh = read_sound_mesh(object.mesh, LengthUnit::kMillimetre).mesh;
     const auto start = Clock::now();
     Model model = naming(object.mesh.string(),
                          [&] { return train_model(mesh, object.name, train, object.symmetries, part); });
@@ -156,7 +147,7 @@ Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& m
                           const EvalOptions& given, const Progress& progress) {
   require_sound(given);
   EvalOptions options = given;
-  options.scene.threads = options.match.threads = options.threads;
+  if (options.threads) options.scene.threads = options.match.threads = *options.threads;
   Evaluation evaluation;
   size_t images_done = 0;
   for (const TestImage& image : set.images) {

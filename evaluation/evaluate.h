@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct EvalOptions {
   TrainOptions train;
   SceneOptions scene;
   MatchOptions match;
-  int threads = 0;  ///< 0 = all cores; overrides those of the options above. Only times depend on it
+  std::optional<int>
+      threads;  ///< overrides those of the options above; 0 = all cores. Only times depend on it
 
   /// Applied to every depth image before it is preprocessed (the noise study); its time is not counted.
   std::function<DepthImage(const TestImage& image, const DepthImage& depth, const Camera& camera)> disturb;

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <sstream>
 
-#include "common/atomic_file.h"
 #include "common/error.h"
 
 extern char** environ;
@@ -160,15 +159,15 @@ bool gnuplot_available() {
   return run_gnuplot("--version", version) == 0;
 }
 
-void draw(const Plot& plot, const std::filesystem::path& folder) {
-  const std::filesystem::path script = folder / (plot.file + ".gp"), picture = folder / (plot.file + ".png");
-  write_file_atomically(script, script_of(plot));
+void draw(const Plot& plot, const std::filesystem::path& folder, FileGroup& files) {
+  const std::filesystem::path picture = folder / (plot.file + ".png");
+  const std::filesystem::path script = files.add(folder / (plot.file + ".gp"), script_of(plot));
   std::string png;
   const int code = run_gnuplot(std::filesystem::absolute(script).string(), png);
   if (code != 0 || !png.starts_with("\x89PNG"))
-    throw InputError::at(script.string(), "gnuplot to draw it", "exit code " + std::to_string(code),
-                         "install gnuplot-nox, or run gnuplot on that file to see why");
-  write_file_atomically(picture, png);
+    throw InputError::at(picture.string(), "gnuplot to draw it", "exit code " + std::to_string(code),
+                         "install gnuplot-nox");
+  files.add(picture, png);
 }
 
 }  // namespace edgepose

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "common/atomic_file.h"
+
 namespace edgepose {
 
 /// One line, or one group of bars, of a plot.
@@ -28,9 +30,9 @@ struct Plot {
 /// Is gnuplot on the PATH?
 bool gnuplot_available();
 
-/// Draws FOLDER/FILE.png with gnuplot and leaves FOLDER/FILE.gp, the script with its data, beside it, so that
-/// the plot can be redrawn in another style. Throws InputError if gnuplot fails.
-void draw(const Plot& plot, const std::filesystem::path& folder);
+/// Draws FOLDER/FILE.png with gnuplot and adds it to `files`, with FOLDER/FILE.gp, the script with its data,
+/// so that the plot can be redrawn in another style. Throws InputError if gnuplot fails.
+void draw(const Plot& plot, const std::filesystem::path& folder, FileGroup& files);
 
 /// `text` without what Markdown tables or gnuplot would take for syntax. Names come from foreign files, and
 /// gnuplot runs what stands between backquotes.

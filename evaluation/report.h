@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/atomic_file.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/plot.h"
 #include "evaluation/score.h"
@@ -26,16 +27,14 @@ std::string result_tables(const EvalReport& report);
 /// The plots of a run: recall by object, by threshold and by visibility; errors; times; shares of the stages.
 std::vector<Plot> result_plots(const EvalReport& report);
 
-/// Draws `plots` into `folder` (made if missing). Returns Markdown that shows them, or, if gnuplot is
-/// missing, says so; that is then also the one line in `warning`. Throws InputError if the folder cannot be
-/// written.
-std::string draw_all(const std::vector<Plot>& plots, const std::filesystem::path& folder,
+/// Draws `plots` into `folder` (made if missing); they appear when `files` are committed. Returns Markdown
+/// that shows them, or, if gnuplot is missing, says so; that is then also the one line in `warning`. Throws
+/// InputError if the folder cannot be written.
+std::string draw_all(const std::vector<Plot>& plots, const std::filesystem::path& folder, FileGroup& files,
                      std::string& warning);
 
-/// Writes FOLDER/report.md and its plots. Returns a warning (one line), or nothing. Throws InputError.
+/// Writes FOLDER/report.md and its plots, all or nothing. Returns a warning (one line), or nothing. Throws
+/// InputError.
 std::string write_report(const EvalReport& report, const std::filesystem::path& folder);
-
-/// Makes the folder if need be; throws InputError if that fails or something else has the name.
-void make_folder(const std::filesystem::path& folder);
 
 }  // namespace edgepose

@@ -19,7 +19,7 @@ EvalOptions with(EvalOptions options, Verification verification) {
 EvalOptions with_noise(EvalOptions options, double sigma) {
   if (sigma <= 0) return options;
   const uint64_t seed = options.match.seed;
-  const int threads = options.threads;
+  const int threads = options.threads.value_or(options.scene.threads);
   options.disturb = [sigma, seed, threads](const TestImage& image, const DepthImage& depth,
                                            const Camera& camera) {
     const uint64_t image_seed = seed * 1000003 + static_cast<uint64_t>(image.scene_id) * 100003 +
@@ -29,17 +29,23 @@ EvalOptions with_noise(EvalOptions options, double sigma) {
   return options;
 }
 
+/// An experiment without its variants.
+Experiment described(const char* key, const char* title, Experiment::Layout layout, const char* note) {
+  Experiment experiment;
+  experiment.key = key;
+  experiment.title = title;
+  experiment.layout = layout;
+  experiment.note = note;
+  return experiment;
+}
+
 Experiment noise(const EvalOptions& base) {
-  Experiment experiment{
-      .key = "noise",
-      .title = "Gaussian noise",
-      .note =
-          "Paper: table 'Results of our algorithm after interference by various noises'. Noise "
-          "of this standard deviation is added along the viewing rays, to what the images "
-          "already have.",
-      .setting_label = "standard deviation of the noise, mm",
-      .layout = Experiment::Layout::kBySetting,
-      .variants = {}};
+  Experiment experiment =
+      described("noise", "Gaussian noise", Experiment::Layout::kBySetting,
+                "Paper: table 'Results of our algorithm after interference by various noises'. Noise "
+                "of this standard deviation is added along the viewing rays, to what the images "
+                "already have.");
+  experiment.setting_label = "standard deviation of the noise, mm";
   for (const auto& [name, verification] :
        {std::pair{kPaperName, Verification::kPaper}, std::pair{kFreeSpaceName, Verification::kFreeSpace}})
     for (double millimetres : {0.0, 0.5, 1.0, 1.5, 2.0})
@@ -49,12 +55,9 @@ Experiment noise(const EvalOptions& base) {
 }
 
 Experiment sampling(const EvalOptions& base) {
-  Experiment experiment{.key = "sampling",
-                        .title = "Sampling with and without emphasis on edges",
-                        .note = "Paper: table 'Validation of edge-based sampling method'.",
-                        .setting_label = "",
-                        .layout = Experiment::Layout::kByObject,
-                        .variants = {}};
+  Experiment experiment =
+      described("sampling", "Sampling with and without emphasis on edges", Experiment::Layout::kByObject,
+                "Paper: table 'Validation of edge-based sampling method'.");
   for (const auto& [name, verification] :
        {std::pair{"S", Verification::kPaper}, std::pair{"free space", Verification::kFreeSpace}})
     for (bool edges : {false, true}) {
@@ -67,12 +70,8 @@ Experiment sampling(const EvalOptions& base) {
 }
 
 Experiment verification(const EvalOptions& base) {
-  Experiment experiment{.key = "verification",
-                        .title = "Pose verification",
-                        .note = "Paper: table 'Validation of our pose verification method'.",
-                        .setting_label = "",
-                        .layout = Experiment::Layout::kByObject,
-                        .variants = {}};
+  Experiment experiment = described("verification", "Pose verification", Experiment::Layout::kByObject,
+                                    "Paper: table 'Validation of our pose verification method'.");
   experiment.variants = {{kOverlapName, "", 0, with(base, Verification::kSurfaceOverlap)},
                          {kPaperName, "", 0, with(base, Verification::kPaper)},
                          {kFreeSpaceName, "", 0, with(base, Verification::kFreeSpace)}};
@@ -80,14 +79,10 @@ Experiment verification(const EvalOptions& base) {
 }
 
 Experiment early_exit(const EvalOptions& base) {
-  Experiment experiment{.key = "early_exit",
-                        .title = "Three ways of running the verification",
-                        .note =
-                            "Paper: figure 'Comparison of time efficiency of three ways of using the pose "
-                            "verification functions'.",
-                        .setting_label = "",
-                        .layout = Experiment::Layout::kByTime,
-                        .variants = {}};
+  Experiment experiment =
+      described("early_exit", "Three ways of running the verification", Experiment::Layout::kByTime,
+                "Paper: figure 'Comparison of time efficiency of three ways of using the pose "
+                "verification functions'.");
   const auto add = [&](const char* name, bool two_classes, bool exit) {
     Variant variant{name, "", 0, with(base, Verification::kPaper)};
     variant.options.match.paper.two_classes = two_classes;
@@ -113,16 +108,13 @@ EvalOptions sweep_start(const EvalOptions& base) {
 template <typename Set>
 Experiment sweep(const EvalOptions& base, const std::string& key, const std::string& label,
                  const std::vector<double>& values, int decimals, Set&& set) {
-  Experiment experiment{
-      .key = "sweep_" + key,
-      .title = "Sweep: ",
-      .note =
-          "Paper: figure 'Parameter analysis'. The others stay at distance step 0.025 d, angle "
-          "step 5 degrees, N = 10, s = 1.5; verified by S.",
-      .setting_label = label,
-      .layout = Experiment::Layout::kSweep,
-      .variants = {}};
+  Experiment experiment =
+      described("sweep_", "Sweep: ", Experiment::Layout::kSweep,
+                "Paper: figure 'Parameter analysis'. The others stay at distance step 0.025 d, angle "
+                "step 5 degrees, N = 10, s = 1.5; verified by S.");
+  experiment.key.append(key);
   experiment.title.append(label);
+  experiment.setting_label = label;
   for (double value : values) {
     Variant variant{"", fixed(value, decimals), value, sweep_start(base)};
     set(variant.options, value);

@@ -1,8 +1,7 @@
 #include "files/camera_check.h"
 
+#include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "common/error.h"
 #include "files/number_text.h"
@@ -11,19 +10,36 @@ namespace edgepose {
 
 void check_camera(const Camera& camera, const std::string& where, std::optional<int> width,
                   std::optional<int> height) {
-  constexpr double kMost = 1e6;  // pixels
-  const std::pair<const char*, double> values[] = {
-      {"fx", camera.fx}, {"fy", camera.fy}, {"cx", camera.cx}, {"cy", camera.cy}};
-  for (const auto& [name, value] : values)
-    if (!(value > 0 && value <= kMost))
-      throw InputError::at(where, std::string(name) + " above 0 and at most 1e6 pixels", number_text(value),
-                           "give the intrinsics of the depth camera: fx, fy, cx, cy in pixels");
-  using Centre = std::tuple<const char*, double, std::optional<int>>;
-  for (const auto& [name, value, size] : {Centre{"cx", camera.cx, width}, Centre{"cy", camera.cy, height}})
-    if (size && value >= *size)
-      throw InputError::at(where,
-                           std::string(name) + " inside the image of " + std::to_string(*size) + " pixels",
-                           number_text(value), "the intrinsics belong to another resolution");
+  // Fields of view of 157 to 0.6 degrees. The centre of a picture cut out of a larger one may lie outside of
+  // it.
+  constexpr double kShortest = 0.1, kLongest = 100, kFarthest = 10;  // [larger sides of the image]
+  constexpr double kLeastUnsized = 1, kMostUnsized = 1e6;            // [pixels] where the size is not known
+  const std::optional<double> side =
+      width && height ? std::optional<double>(std::max(*width, *height)) : std::nullopt;
+  const auto require = [&](const char* name, double value, double low, double high, const char* advice) {
+    if (value >= low && value <= high) return;
+    throw InputError::at(
+        where,
+        std::string(name) + " from " + number_text(low) + " to " + number_text(high) +
+            (side ? " for an image of " + std::to_string(*width) + " x " + std::to_string(*height) + " pixels"
+                  : " pixels"),
+        number_text(value), advice);
+  };
+  const double least = side ? kShortest * *side : kLeastUnsized,
+               most = side ? kLongest * *side : kMostUnsized;
+  const char* advice = "give the intrinsics of the depth camera: fx, fy, cx, cy in pixels";
+  require("fx", camera.fx, least, most, advice);
+  require("fy", camera.fy, least, most, advice);
+  const double farthest = side ? kFarthest * *side : kMostUnsized;
+  require("cx", camera.cx, -farthest, farthest, "the intrinsics belong to another resolution");
+  require("cy", camera.cy, -farthest, farthest, "the intrinsics belong to another resolution");
+}
+
+std::string off_centre_warning(const Camera& camera, int width, int height) {
+  if (camera.cx >= 0 && camera.cx < width && camera.cy >= 0 && camera.cy < height) return "";
+  return "the principal point (" + number_text(camera.cx) + ", " + number_text(camera.cy) +
+         ") is outside of the image of " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels: right only if that was cut out of a larger one";
 }
 
 Camera camera_from_matrix(const std::vector<double>& matrix, const std::string& where) {

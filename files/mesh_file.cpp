@@ -76,7 +76,6 @@ Mesh parse_mesh(std::span<const std::byte> bytes, const std::string& name, Lengt
                            std::to_string(parsed.cloud.vertices.size()) + " vertices and no faces",
                            "export the surface as triangles");
     }
-    drop_non_finite_points(parsed.cloud, name);
   }
   return std::move(parsed.cloud);
 }

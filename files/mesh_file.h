@@ -22,8 +22,8 @@ struct Cloud : Mesh {
 
 /// Reads a mesh (PLY, STL or OBJ, ascii or binary) or a cloud (PLY without faces, PCD), told apart by
 /// content. Result in metres, as the file has it: polygons are cut into fans, equal STL corners are one
-/// vertex, points of a cloud that are not finite are dropped; everything else is left to check_mesh() and
-/// mend_mesh(). Normals are kept if every vertex has one (OBJ: and only one), not normalised. Throws
+/// vertex; everything else, coordinates that are not finite too, is left to check_mesh() and mend_mesh().
+/// Normals are kept if every vertex has one (OBJ: and only one), not normalised. Throws
 /// InputError: missing, empty, cut short, not of the format that the name says, unsound counts or indices, no
 /// vertices; STL and OBJ: no faces.
 Mesh read_mesh(const std::filesystem::path& path, LengthUnit unit = LengthUnit::kMillimetre);

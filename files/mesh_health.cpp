@@ -10,7 +10,10 @@
 namespace edgepose {
 namespace {
 
-std::string percent(double share) { return number_text(100 * share, 2) + " %"; }
+std::string percent(double share) {
+  const double value = 100 * share;
+  return number_text(value < 99.5 ? value : std::round(value), value < 99.5 ? 2 : 3) + " %";
+}
 
 void count_vertices_and_triangles(const Mesh& mesh, const MeshSurvey& survey, MeshHealth& health) {
   health.vertices = mesh.vertices.size();
@@ -100,12 +103,13 @@ std::string MeshHealth::size_complaint() const {
   if (diameter >= limits.min_diameter && diameter <= limits.max_diameter) return "";
   std::string complaint = "a diameter of " + size_text(diameter) + ", outside " +
                           size_text(limits.min_diameter) + " to " + size_text(limits.max_diameter);
+  const std::string advice = "; if that is its true size, give --any-size";
   const bool small = diameter < limits.min_diameter;
   const double other = small ? diameter * 1000 : diameter / 1000;
-  if (other < limits.min_diameter || other > limits.max_diameter) return complaint;
+  if (other < limits.min_diameter || other > limits.max_diameter) return complaint + advice;
   return complaint + ": the file seems to be in " +
          (small ? "metres, not millimetres" : "millimetres, not metres") + " (it would be " +
-         size_text(other) + " then)";
+         size_text(other) + " with --unit " + (small ? "m" : "mm") + ")" + advice;
 }
 
 MeshHealth check_mesh(const Mesh& mesh, const MeshLimits& limits) {

@@ -12,6 +12,10 @@ struct MeshLimits {
   double min_diameter = 0.005;  ///< [m] anything smaller was most likely read in the wrong unit
   double max_diameter = 5.0;    ///< [m] anything larger too
 };
+/// For objects of which somebody knows that they are so small or large: what the matcher can hold.
+inline constexpr MeshLimits kAnySize = {1e-3, 100.0};
+/// [m] coordinates beyond have lost their millimetres (they are 32-bit numbers).
+inline constexpr double kMaxCoordinate = 1000;
 
 /// How sound a mesh is. Counts describe the mesh as check_mesh() saw it; vertices at the same place count as
 /// one for edges and orientation, so meshes with split vertices (hard edges, texture seams) are closed too.
@@ -53,11 +57,12 @@ struct MeshHealth {
 /// Looks at a mesh or cloud (in metres) and changes nothing. Never throws on bad content.
 MeshHealth check_mesh(const Mesh& mesh, const MeshLimits& limits = {});
 
-/// Mends what can be mended and says so in `health.mended`: drops vertices that are not finite, with their
-/// faces; degenerate, duplicate and dangling faces; unused vertices; makes the orientation of each part
-/// consistent and outwards; recomputes zero or opposed normals and normalises the others.
+/// Mends what can be mended and says so in `health.mended`: drops degenerate, duplicate and dangling faces;
+/// unused vertices; makes the orientation of each part consistent and outwards; recomputes single normals
+/// without a direction (in a cloud it drops their points), turns opposed ones and normalises the others.
 /// `health` is what check_mesh() found in this mesh; `name` (of the file) starts the error.
-/// Throws InputError if nothing usable is left or the size is implausible.
+/// Throws InputError if a vertex is not finite, if there are normals but none has a direction, if nothing
+/// usable is left, or if the size or the place is implausible.
 Mesh mend_mesh(Mesh mesh, MeshHealth& health, const std::string& name = "mesh");
 
 }  // namespace edgepose

@@ -1,40 +1,16 @@
 #include <cmath>
 
-#include "common/error.h"
+#include "files/mesh_demands.h"
 #include "files/mesh_health.h"
-#include "files/mesh_survey.h"
 #include "files/surface_measure.h"
 
 namespace edgepose {
 namespace {
 
-/// "1 triangle", "3 triangles".
-std::string counted(size_t count, const char* thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-void require_surface(const MeshSurvey& survey, const MeshHealth& health, const std::string& name) {
-  if (health.is_cloud && survey.used_vertices.empty()) {
-    throw InputError::at(name, "a mesh or cloud with finite points",
-                         counted(health.vertices, "point") + ", none of them finite");
-  }
-  if (!health.is_cloud && survey.triangles.empty()) {
-    throw InputError::at(name, "a mesh with usable triangles",
-                         counted(health.triangles, "triangle") +
-                             ", all without area, or with vertices that are not finite or not there");
-  }
-  const std::string complaint = health.size_complaint();
-  if (!complaint.empty()) throw InputError::at(name, "an object of plausible size", complaint);
-}
-
 void report_triangles(const MeshSurvey& survey, MeshHealth& health) {
   std::vector<std::string>& mended = health.mended;
   if (health.bad_indices)
     mended.push_back("dropped " + counted(health.bad_indices, "triangle") + " without their vertices");
-  if (health.non_finite_vertices) {
-    mended.push_back("dropped what is not finite: " + counted(health.non_finite_vertices, "point") +
-                     (health.is_cloud ? "" : " and the triangles at them"));
-  }
   if (health.degenerate_triangles) {
     mended.push_back("dropped " + counted(health.degenerate_triangles, "triangle") + " without area");
   }
@@ -96,17 +72,9 @@ void mend_normals(const MeshSurvey& survey, MeshHealth& health, Mesh& mesh) {
     mended.push_back("gave " + counted(health.non_unit_normals, "normal") + " unit length");
 }
 
-/// Points of a cloud without a direction cannot get one here: they go, or, if no point has one, the normals
-/// do.
+/// Points of a cloud whose normal has no direction cannot get one here: they go.
 void settle_cloud_normals(MeshHealth& health, std::vector<bool>& keep, Mesh& cloud) {
   if (cloud.normals.empty() || health.bad_normals == 0) return;
-  bool any = false;
-  for (size_t i = 0; i < keep.size(); ++i) any = any || (keep[i] && !cloud.normals[i].isZero());
-  if (!any) {
-    cloud.normals.clear();
-    health.mended.emplace_back("dropped the normals: none had a direction");
-    return;
-  }
   for (size_t i = 0; i < keep.size(); ++i) keep[i] = keep[i] && !cloud.normals[i].isZero();
   health.mended.push_back("dropped " + counted(health.bad_normals, "point") +
                           " whose normal had no direction");
@@ -132,7 +100,7 @@ void compact(const std::vector<bool>& keep, Mesh& mesh) {
 
 Mesh mend_mesh(Mesh mesh, MeshHealth& health, const std::string& name) {
   MeshSurvey survey = survey_mesh(mesh);
-  require_surface(survey, health, name);
+  require_usable(survey, health, name);
   report_triangles(survey, health);
   mend_normals(survey, health, mesh);
   if (health.is_cloud) settle_cloud_normals(health, survey.used, mesh);

@@ -39,7 +39,8 @@ class StlTriangles {
 ParsedMesh parse_binary(std::span<const std::byte> bytes, const std::string& name, double scale) {
   if (bytes.size() < kHeaderSize) {
     throw InputError::at(name, "an STL file ('solid ...' or a binary header of 84 bytes)",
-                         describe_content(bytes));
+                         std::to_string(bytes.size()) + " bytes (" + describe_content(bytes) + ")",
+                         "the file is cut short, damaged or no STL");
   }
   const auto count = static_cast<uint64_t>(load_scalar(bytes.data() + 80, ScalarType::kUint32, false));
   const uint64_t size = kHeaderSize + count * kTriangleSize;

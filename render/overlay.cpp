@@ -189,7 +189,55 @@ void require_sound(const DepthImage& image, const Camera& camera, const std::vec
   }
 }
 
+/// Pixel centres are at whole numbers: (u, v) of the image is ((u + 0.5) * scale - 0.5) of the picture.
+Camera enlarged_by(int scale, const Camera& camera) {
+  return {camera.fx * scale, camera.fy * scale, (camera.cx + 0.5) * scale - 0.5,
+          (camera.cy + 0.5) * scale - 0.5};
+}
+
+/// Last of all, so that nothing is drawn over what is read. `boxes` are where the poses are seen.
+void draw_notes(Canvas& canvas, const std::vector<OverlayPose>& poses, const std::vector<cv::Rect>& boxes,
+                const std::vector<Colour>& colours) {
+  for (const cv::Rect& box : boxes) canvas.keep_clear(box);
+  for (const OverlayPose& pose : poses)
+    for (const OverlayTarget& target : pose.targets) draw_target(canvas, pose.camera_T_model, target);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    canvas.label(poses[i].label, cv::Point2d(boxes[i].x + boxes[i].width / 2.0, boxes[i].y), colours[i],
+                 0.65);
+  }
+}
+
+std::vector<Colour> colours_of(const std::vector<OverlayPose>& poses) {
+  std::vector<Colour> colours;
+  for (size_t i = 0; i < poses.size(); ++i)
+    colours.push_back(poses[i].colour == Colour{0, 0, 0} ? kPalette[i % std::size(kPalette)]
+                                                         : poses[i].colour);
+  return colours;
+}
+
+/// Where the vertices appear in the picture.
+cv::Rect bounding_box(const Canvas& canvas, const OverlayPose& pose) {
+  cv::Rect box;
+  for (const Eigen::Vector3f& vertex : pose.mesh->vertices)
+    if (const auto at = canvas.project(pose.camera_T_model * vertex.cast<double>()))
+      box |= cv::Rect(cvRound(at->x), cvRound(at->y), 1, 1);
+  return box & cv::Rect(0, 0, canvas.width(), canvas.height());
+}
+
 }  // namespace
+
+void annotate_overlay(RgbImage& picture, const DepthImage& image, const Camera& camera,
+                      const std::vector<OverlayPose>& poses, const OverlayOptions& options) {
+  require_sound(image, camera, poses);
+  Canvas canvas(picture, enlarged_by(picture.width / image.width, camera));
+  std::vector<cv::Rect> boxes;
+  for (const OverlayPose& pose : poses) {
+    boxes.push_back(bounding_box(canvas, pose));
+    if (options.frames) draw_frame(canvas, pose.camera_T_model, 0.15 * diagonal(*pose.mesh));
+  }
+  draw_notes(canvas, poses, boxes, colours_of(poses));
+  picture = canvas.picture();
+}
 
 RgbImage draw_overlay(const DepthImage& whole_image, const Camera& whole_camera,
                       const std::vector<OverlayPose>& poses, const OverlayOptions& options) {
@@ -202,16 +250,13 @@ RgbImage draw_overlay(const DepthImage& whole_image, const Camera& whole_camera,
   camera.cy -= part.y;
   const int scale =
       std::clamp(static_cast<int>(std::lround(static_cast<double>(options.width) / image.width)), 1, 8);
-  // Pixel centres are at whole numbers: (u, v) of the image is ((u + 0.5) * scale - 0.5) of the picture.
-  const Camera enlarged{camera.fx * scale, camera.fy * scale, (camera.cx + 0.5) * scale - 0.5,
-                        (camera.cy + 0.5) * scale - 0.5};
+  const Camera enlarged = enlarged_by(scale, camera);
   Canvas canvas(shade_depth(image, camera, scale), enlarged);
 
   std::vector<cv::Rect> boxes(poses.size());
-  std::vector<Colour> colours(poses.size());
+  const std::vector<Colour> colours = colours_of(poses);
   for (size_t i = 0; i < poses.size(); ++i) {
     const OverlayPose& pose = poses[i];
-    colours[i] = pose.colour == Colour{0, 0, 0} ? kPalette[i % std::size(kPalette)] : pose.colour;
     DepthRenderer renderer;
     renderer.add(*pose.mesh, pose.camera_T_model);
     const double size = diagonal(*pose.mesh);
@@ -222,15 +267,7 @@ RgbImage draw_overlay(const DepthImage& whole_image, const Camera& whole_camera,
     draw_lines(canvas, pose, view, options.crease_angle_deg * std::numbers::pi / 180, colours[i]);
     if (options.frames) draw_frame(canvas, pose.camera_T_model, 0.15 * size);
   }
-  // Last, so that nothing is drawn over what is read.
-  for (const cv::Rect& box : boxes) canvas.keep_clear(box);
-  for (const OverlayPose& pose : poses) {
-    for (const OverlayTarget& target : pose.targets) draw_target(canvas, pose.camera_T_model, target);
-  }
-  for (size_t i = 0; i < poses.size(); ++i) {
-    canvas.label(poses[i].label, cv::Point2d(boxes[i].x + boxes[i].width / 2.0, boxes[i].y), colours[i],
-                 0.65);
-  }
+  draw_notes(canvas, poses, boxes, colours);
   return canvas.picture();
 }
 

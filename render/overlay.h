@@ -49,6 +49,11 @@ struct RgbImage {
 RgbImage draw_overlay(const DepthImage& image, const Camera& camera, const std::vector<OverlayPose>& poses,
                       const OverlayOptions& options = {});
 
+/// Over a picture of the whole image, enlarged by a whole factor, in which the poses' surfaces are drawn
+/// already: the models' axes, their drill targets and labels. Throws as draw_overlay().
+void annotate_overlay(RgbImage& picture, const DepthImage& image, const Camera& camera,
+                      const std::vector<OverlayPose>& poses, const OverlayOptions& options = {});
+
 /// The depth image alone, shaded by its normals and coloured by its depth (near warm, far blue), enlarged
 /// `scale` times; holes are black.
 RgbImage shade_depth(const DepthImage& image, const Camera& camera, int scale = 1);

@@ -3,9 +3,10 @@
 #include <iostream>
 #include <memory>
 
+#include "client/cli/option_checks.h"
 #include "client/cli/progress_bar.h"
 #include "client/cli/set_input.h"
-#include "common/error.h"
+#include "common/output_target.h"
 #include "evaluation/report.h"
 
 namespace edgepose {
@@ -37,21 +38,14 @@ std::string EvalCommand::command_line() const {
   return text;
 }
 
-void require_folder_of(const std::filesystem::path& file) {
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  if (!std::filesystem::is_directory(folder))
-    throw InputError::at(file.string(), "a folder that exists to write it to", "no folder " + folder.string(),
-                         "make it or name another with --results");
-}
-
 void EvalCommand::run() const {
   const TestSet set = input.read();
   EvalOptions options = input.options();
   options.all_models = all_models;
   if (paper_mode) options.match.verification = Verification::kPaper;
   // Found out before the work, not after it.
-  if (!report.empty()) make_folder(report);
-  if (!results.empty()) require_folder_of(results);
+  if (!report.empty()) check_output_folder(report);
+  if (!results.empty()) check_output(results, input.files(set));
 
   const auto models = train_models(set, options, progress_bar("training"));
   const Evaluation evaluation = run_evaluation(set, models, options, progress_bar("evaluating"));
@@ -73,13 +67,13 @@ void add_eval_command(CLI::App& app) {
   CLI::App* eval =
       app.add_subcommand("eval", "Find the objects of a test set in its images and score the poses");
   command->input.add_options(*eval);
-  eval->add_option("--results", command->results, "BOP result file (CSV) to write");
+  add_output_option(*eval, "--results", command->results, "BOP result file (CSV) to write");
   eval->add_flag("--all-models", command->all_models,
                  "Ask for every model in every image; write and count only accepted poses");
   eval->add_flag("--paper-mode", command->paper_mode, "Verify poses as the paper does; always gives a pose");
   eval->add_option("--group-by-modulo", command->group_modulo, "Recall also by image number modulo this")
       ->check(CLI::Range(1, 1000));
-  eval->add_option("--report", command->report, "Folder for report.md and its plots (needs gnuplot)");
+  add_output_option(*eval, "--report", command->report, "Folder for report.md and its plots (needs gnuplot)");
   eval->footer(kEvalExamples);
   eval->callback([command] { command->run(); });
 }

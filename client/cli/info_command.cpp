@@ -25,7 +25,7 @@ constexpr const char* kInfoExamples = R"(Examples:
 struct InfoCommand {
   std::filesystem::path file;
   LengthUnit unit = LengthUnit::kMillimetre;
-  bool as_json = false;
+  bool as_json = false, any_size = false;
 
   void run() const { is_mesh_file(file) ? show_mesh() : show_model(); }
 
@@ -51,7 +51,7 @@ json to_json(const MeshHealth& health) {
 }
 
 void InfoCommand::show_mesh() const {
-  const MeshHealth health = read_sound_mesh(file, unit).health;
+  const MeshHealth health = read_sound_mesh(file, unit, limits_for(any_size)).health;
   if (as_json) {
     json report = to_json(health);
     report["kind"] = health.is_cloud ? "cloud" : "mesh";
@@ -119,6 +119,7 @@ void add_info_command(CLI::App& app) {
       app.add_subcommand("info", "Describe a trained model, or check a mesh before it is trained");
   info->add_option("FILE", command->file, "Model, mesh or cloud")->required();
   add_unit_option(*info, "--unit", command->unit, "a mesh");
+  add_any_size_option(*info, command->any_size);
   info->add_flag("--json", command->as_json, "Print JSON");
   info->footer(kInfoExamples);
   info->callback([command] { command->run(); });

@@ -1,6 +1,10 @@
 /// edgepose: finds an object's 6D pose in a depth image. One file `<name>_command` for each command.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -16,6 +20,7 @@
 #include "client/cli/study_command.h"
 #include "client/cli/train_command.h"
 #include "common/error.h"
+#include "common/temporary_file.h"
 
 namespace edgepose {
 namespace {
@@ -64,11 +69,8 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
   try {
     if (argc > 1) check_command(app, argv[1]);
     app.parse(argc, argv);
-    std::cout.flush();
-    if (!std::cout) throw InputError("standard output: cannot write; is the disk full?");
     return kExitFound;
   } catch (const CLI::RuntimeError& ended) {
-    std::cout.flush();
     return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
@@ -76,14 +78,29 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// "Found" or "not found" is worth nothing if what was printed is lost.
+int unless_output_was_lost(int code) {
+  if (code == kExitBadInput || std::cout.flush()) return code;
+  return report_bad_input("standard output: cannot write; is the disk full, or the output closed?");
+}
+
+/// Where the caller has closed a standard stream, the next file to be opened would take its number, and what
+/// is printed would end up in that file. What stands in cannot be written to, so the loss is noticed.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) std::abort();
+}
+
 }  // namespace
 }  // namespace edgepose
 
 int main(int argc, char** argv) {
+  edgepose::occupy_standard_streams();
+  edgepose::remove_temporary_files_on_signals();
   try {
     CLI::App app{"edgepose: finds an object's 6D pose in a depth image by edge-enhanced point pair features"};
     edgepose::add_commands(app);
-    return edgepose::parse_and_run(app, argc, argv);
+    return edgepose::unless_output_was_lost(edgepose::parse_and_run(app, argc, argv));
   } catch (const std::bad_alloc&) {
     return edgepose::report_bad_input("out of memory");
   } catch (const std::exception& error) {

@@ -10,10 +10,13 @@
 #include "client/cli/match_report.h"
 #include "client/cli/mesh_input.h"
 #include "client/cli/model_input.h"
+#include "client/cli/option_checks.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/settings.h"
 #include "common/error.h"
+#include "common/naming.h"
+#include "common/output_target.h"
 
 namespace edgepose {
 namespace {
@@ -34,7 +37,7 @@ struct MatchCommand {
   LengthUnit cloud_unit = LengthUnit::kMillimetre, mesh_unit = LengthUnit::kMillimetre;
   SceneSource source;
   std::filesystem::path config, overlay, plan;
-  bool as_json = false, paper_mode = false;
+  bool as_json = false, paper_mode = false, any_size = false;
   std::optional<int> max_instances, threads;
   std::optional<double> accept_score;
 
@@ -42,6 +45,7 @@ struct MatchCommand {
 
  private:
   Settings settings() const;
+  std::vector<std::filesystem::path> files() const;  ///< that are read
   std::vector<ModelInput> read_models(const TrainOptions& options) const;
   void print(const std::vector<NamedResult>& results, const std::optional<PlanReport>& targets,
              const SceneInput& scene, double preprocessing_seconds) const;
@@ -63,10 +67,18 @@ std::vector<ModelInput> MatchCommand::read_models(const TrainOptions& options) c
   }
   std::vector<ModelInput> inputs;
   for (size_t i = 0; i < models.size(); ++i) {
-    inputs.push_back(load_or_train(models[i], mesh_unit, options));
-    if (!meshes.empty()) inputs.back().mesh = read_sound_mesh(meshes[i], mesh_unit).mesh;
+    inputs.push_back(load_or_train(models[i], mesh_unit, limits_for(any_size), options));
+    if (!meshes.empty())
+      inputs.back().mesh = read_sound_mesh(meshes[i], mesh_unit, limits_for(any_size)).mesh;
   }
   return inputs;
+}
+
+std::vector<std::filesystem::path> MatchCommand::files() const {
+  std::vector<std::filesystem::path> list = {source.depth, source.cloud, source.intrinsics, config, plan};
+  list.insert(list.end(), models.begin(), models.end());
+  list.insert(list.end(), meshes.begin(), meshes.end());
+  return list;
 }
 
 void MatchCommand::run() const {
@@ -74,6 +86,7 @@ void MatchCommand::run() const {
   if (!plan.empty() && models.size() != 1) {
     throw InputError::at("--plan", "one MODEL, the one that it was made for", std::to_string(models.size()));
   }
+  if (!overlay.empty()) check_output(overlay, files());
   const std::optional<DrillPlan> drill_plan =
       plan.empty() ? std::nullopt : std::optional(read_drill_plan(plan));
   const SceneInput input = read_scene(source, cloud_unit);
@@ -83,11 +96,11 @@ void MatchCommand::run() const {
                      plan.string());
   }
 
-  const Scene scene = prepare_scene(input.image, input.camera, options.scene);
+  const Scene scene = prepare(input, options.scene);
   std::vector<MatchResult> answers;
   std::vector<const Model*> asked;
   for (const ModelInput& model : inputs) {
-    answers.push_back(match(scene, model.model, options.match));
+    answers.push_back(naming(model.file.string(), [&] { return match(scene, model.model, options.match); }));
     asked.push_back(&model.model);
   }
   resolve_conflicts(scene, asked, answers);
@@ -141,8 +154,10 @@ void add_match_command(CLI::App& app) {
   add_scene_options(*match, command->source);
   add_unit_option(*match, "--unit", command->cloud_unit, "the cloud and its viewpoint");
   add_unit_option(*match, "--mesh-unit", command->mesh_unit, "meshes given as MODEL or --mesh");
+  add_any_size_option(*match, command->any_size);
   match->add_flag("--json", command->as_json, "Print JSON (docs/match_json.md) instead of a table");
-  match->add_option("--overlay", command->overlay, "Write a picture of the found poses over the depth image");
+  add_output_option(*match, "--overlay", command->overlay,
+                    "Write a picture of the found poses over the depth image");
   match
       ->add_option("--mesh", command->meshes,
                    "The models' meshes, in their order, for the overlay (default: the models' own outlines)")
@@ -152,9 +167,9 @@ void add_match_command(CLI::App& app) {
   match
       ->add_option("--max-instances", command->max_instances,
                    "Instances of each model to look for (default 1)")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, 100));
   match->add_option("--accept", command->accept_score, "Score from which a pose counts as found")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0, 1));
   match->add_flag("--paper-mode", command->paper_mode,
                   "Verify as the paper does: always answers with a pose");
   match->add_option("--config", command->config, "TOML file with any option (config/edgepose.toml)");

@@ -1,6 +1,5 @@
 #include "client/cli/match_overlay.h"
 
-#include <algorithm>
 #include <array>
 
 #include "client/cli/text.h"
@@ -17,35 +16,40 @@ bool shown(const NamedResult& named, const Detection& detection) {
   return detection.accepted || (!named.found() && &detection == &named.result.detections.front());
 }
 
+/// Those of one model that are drawn; `mesh` must outlive them.
+std::vector<OverlayPose> poses_of(const NamedResult& named, const Mesh& mesh, const Colour& colour,
+                                  const std::vector<OverlayTarget>& targets) {
+  std::vector<OverlayPose> poses;
+  for (const Detection& detection : named.result.detections) {
+    if (!shown(named, detection)) continue;
+    const char* doubt = detection.accepted ? "" : "?";
+    poses.push_back({&mesh, detection.camera_T_model,
+                     named.name + doubt + formatted(" %.2f", detection.score), colour, targets});
+  }
+  return poses;
+}
+
 }  // namespace
 
 void write_match_overlay(const std::filesystem::path& path, const SceneInput& scene,
                          const std::vector<ModelInput>& models, const std::vector<NamedResult>& results,
                          const std::vector<OverlayTarget>& targets) {
-  std::vector<OverlayPose> with_mesh;
+  std::vector<OverlayPose> with_mesh, with_samples;
+  std::vector<Mesh> samples(models.size());
   for (size_t i = 0; i < models.size(); ++i) {
-    if (!has_triangles(models[i])) continue;
-    for (const Detection& detection : results[i].result.detections) {
-      if (!shown(results[i], detection)) continue;
-      const char* doubt = detection.accepted ? "" : "?";
-      with_mesh.push_back({&*models[i].mesh, detection.camera_T_model,
-                           results[i].name + doubt + formatted(" %.2f", detection.score),
-                           kColours[i % kColours.size()], i == 0 ? targets : std::vector<OverlayTarget>{}});
-    }
+    const bool triangles = has_triangles(models[i]);
+    if (!triangles) samples[i] = sample_discs(models[i].model);
+    auto& list = triangles ? with_mesh : with_samples;
+    for (OverlayPose& pose :
+         poses_of(results[i], triangles ? *models[i].mesh : samples[i], kColours[i % kColours.size()],
+                  i == 0 ? targets : std::vector<OverlayTarget>{}))
+      list.push_back(std::move(pose));
   }
   OverlayOptions options;
-  options.zoom =
-      std::all_of(models.begin(), models.end(), has_triangles);  // draw_samples() wants the whole image
+  options.zoom = with_samples.empty();  // draw_samples() wants the whole image
   RgbImage picture = draw_overlay(scene.image, scene.camera, with_mesh, options);
-  for (size_t i = 0; i < models.size(); ++i) {
-    if (has_triangles(models[i])) continue;
-    for (const Detection& detection : results[i].result.detections) {
-      if (shown(results[i], detection)) {
-        draw_samples(picture, scene, models[i].model, detection.camera_T_model,
-                     kColours[i % kColours.size()]);
-      }
-    }
-  }
+  for (const OverlayPose& pose : with_samples) draw_samples(picture, scene, pose);
+  if (!with_samples.empty()) annotate_overlay(picture, scene.image, scene.camera, with_samples, options);
   write_png(path, picture);
 }
 

@@ -16,8 +16,11 @@ void write_match_overlay(const std::filesystem::path& path, const SceneInput& sc
                          const std::vector<ModelInput>& models, const std::vector<NamedResult>& results,
                          const std::vector<OverlayTarget>& targets);
 
-/// The model's outline where it is seen, over a picture of the whole scene, enlarged by a whole factor.
-void draw_samples(RgbImage& picture, const SceneInput& scene, const Model& model,
-                  const RigidTransform& camera_T_model, const Colour& colour);
+/// The surface samples of a model as small discs.
+Mesh sample_discs(const Model& model);
+
+/// The outline of such discs where they are seen, over a picture of the whole scene, enlarged by a whole
+/// factor.
+void draw_samples(RgbImage& picture, const SceneInput& scene, const OverlayPose& pose);
 
 }  // namespace edgepose

@@ -11,13 +11,6 @@
 
 namespace edgepose {
 
-SoundMesh read_sound_mesh(const std::filesystem::path& path, LengthUnit unit) {
-  Mesh mesh = read_mesh(path, unit);
-  MeshHealth health = check_mesh(mesh);
-  mesh = mend_mesh(std::move(mesh), health, path.string());
-  return {std::move(mesh), std::move(health)};
-}
-
 bool is_mesh_file(const std::filesystem::path& path) {
   std::array<char, kModelMagic.size()> start{};
   if (std::ifstream(path, std::ios::binary).read(start.data(), start.size()) && start == kModelMagic) {
@@ -32,6 +25,11 @@ bool is_mesh_file(const std::filesystem::path& path) {
 void print_notes(std::ostream& out, const std::filesystem::path& path, const MeshHealth& health) {
   for (const std::string& line : health.mended) out << path.string() << ": mended: " << line << '\n';
   for (const std::string& line : health.warnings) out << path.string() << ": warning: " << line << '\n';
+}
+
+void add_any_size_option(CLI::App& command, bool& any_size) {
+  command.add_flag("--any-size", any_size,
+                   "Take meshes of 1 mm to 100 m; by default 5 mm to 5 m, others are likely in another unit");
 }
 
 void add_unit_option(CLI::App& command, const std::string& option, LengthUnit& unit,

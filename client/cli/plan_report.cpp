@@ -1,12 +1,12 @@
 #include "client/cli/plan_report.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "client/cli/text.h"
+#include "client/cli/worst_sigma.h"
 
 namespace edgepose {
 namespace {
@@ -18,11 +18,6 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;
   matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return matrix;
-}
-
-double worst_sigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 /// A perturbation (w, t) about `centre` moves `point` by w x (point - centre) + t.
@@ -95,7 +90,9 @@ void print_table(std::ostream& out, const PlanReport& report, const std::string&
   out << formatted("\n%-22s %26s  %20s  %8s  %14s  %s\n", "target", ("entry in " + frame + " [mm]").c_str(),
                    "axis", "depth mm", "2 sigma mm deg", "within tolerance");
   for (const PlacedTarget& placed : report.targets) {
-    const Eigen::Vector3d entry = 1e3 * placed.target.entry, &axis = placed.target.axis;
+    const Eigen::Vector3d entry =
+        (1e3 * placed.target.entry).unaryExpr([](double value) { return rounded(value, 2); });
+    const Eigen::Vector3d axis = placed.target.axis.unaryExpr([](double value) { return rounded(value, 3); });
     out << formatted(
         "%-22.22s %8.2f %8.2f %8.2f  %6.3f %6.3f %6.3f  %8.1f  %7.3f %6.3f  %s (%.1f mm, %.1f deg)\n",
         placed.target.name.c_str(), entry.x(), entry.y(), entry.z(), axis.x(), axis.y(), axis.z(),

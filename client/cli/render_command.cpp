@@ -5,12 +5,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <stdexcept>
 
 #include "client/cli/mesh_input.h"
+#include "client/cli/option_checks.h"
 #include "client/cli/render_scene.h"
 #include "common/atomic_file.h"
 #include "common/error.h"
+#include "common/naming.h"
+#include "common/output_target.h"
+#include "files/camera_check.h"
 #include "files/camera_file.h"
 #include "files/depth_file.h"
 #include "files/mesh_file.h"
@@ -45,6 +48,7 @@ struct RenderCommand {
   int threads = 0;
 
   void run(bool image_given) const;
+  void check_outputs(const std::vector<PlacedMesh>& placed) const;
   std::vector<PlacedMesh> objects(bool image_given) const;
   std::pair<int, int> image_size(const CameraFile& file) const;
 };
@@ -83,10 +87,6 @@ std::pair<int, int> RenderCommand::image_size(const CameraFile& file) const {
   return {width, height};
 }
 
-std::filesystem::path beside(const std::filesystem::path& output, const std::string& ending) {
-  return output.parent_path() / (output.stem().string() + ending);
-}
-
 std::string camera_text(const Camera& camera, int width, int height, double depth_scale_mm) {
   return nlohmann::ordered_json{{"cx", camera.cx}, {"cy", camera.cy}, {"depth_scale", depth_scale_mm},
                                 {"fx", camera.fx}, {"fy", camera.fy}, {"height", height},
@@ -95,11 +95,29 @@ std::string camera_text(const Camera& camera, int width, int height, double dept
          "\n";
 }
 
+std::filesystem::path beside(const std::filesystem::path& output, const std::string& ending) {
+  return output.parent_path() / (output.stem().string() + ending);
+}
+
+void RenderCommand::check_outputs(const std::vector<PlacedMesh>& placed) const {
+  std::vector<std::filesystem::path> taken = {scene, camera};
+  for (const PlacedMesh& object : placed) taken.push_back(object.mesh);
+  std::vector<std::filesystem::path> outputs = {output, beside(output, "_camera.json"),
+                                                beside(output, "_truth.json")};
+  if (!overlay.empty()) outputs.push_back(overlay);
+  for (const std::filesystem::path& path : outputs) {
+    check_output(path, taken);
+    taken.push_back(path);
+  }
+}
+
 void RenderCommand::run(bool image_given) const {
   const SensorModel model = SensorModel::named(sensor);
   const std::vector<PlacedMesh> placed = objects(image_given);
   const CameraFile file = read_camera(camera);
   const auto [width, height] = image_size(file);
+  check_camera(file.camera, camera, width, height);
+  check_outputs(placed);
   // Finer than the sensor measures, unless the sensor itself gives whole millimetres.
   const double unit_mm = depth_scale_mm > 0 ? depth_scale_mm : model.depth_step >= 1e-3 ? 1 : 0.1;
 
@@ -108,11 +126,7 @@ void RenderCommand::run(bool image_given) const {
   for (const PlacedMesh& object : placed) {
     auto [entry, is_new] = loaded.try_emplace(object.mesh);
     if (is_new) entry->second = read_mesh(object.mesh, unit);
-    try {
-      renderer.add(entry->second, object.camera_T_model);
-    } catch (const std::invalid_argument& fault) {
-      throw InputError(object.mesh.string() + ": " + fault.what());
-    }
+    naming(object.mesh.string(), [&] { renderer.add(entry->second, object.camera_T_model); });
   }
   const RenderedView view = renderer.render(file.camera, width, height, threads);
   const DepthImage depth = apply_sensor(view.depth, file.camera, model, seed, threads);
@@ -170,9 +184,10 @@ void add_render_command(CLI::App& app) {
   render
       ->add_option("--depth-scale", command->depth_scale_mm,
                    "Millimetres in one unit of the PNG (default: 1 for time_of_flight, else 0.1)")
-      ->check(CLI::Range(1e-4, 1000.0));
-  render->add_option("-o,--output", command->output, "Depth image to write (PNG)")->required();
-  render->add_option("--overlay", command->overlay, "Also draw the objects' outlines over the depth image");
+      ->check(number_between(1e3 * kMinDepthScale, 1e3 * kMaxDepthScale));
+  add_output_option(*render, "-o,--output", command->output, "Depth image to write (PNG)")->required();
+  add_output_option(*render, "--overlay", command->overlay,
+                    "Also draw the objects' outlines over the depth image");
   render->add_option("--threads", command->threads, "Threads; 0 = all cores; never changes the result")
       ->check(CLI::Range(0, 256));
   render->footer(kRenderExamples);

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <iostream>
+#include <limits>
 
+#include "client/cli/option_checks.h"
 #include "common/error.h"
+#include "common/naming.h"
 #include "files/camera_check.h"
 #include "files/camera_file.h"
 #include "files/depth_file.h"
+#include "files/number_text.h"
 
 namespace edgepose {
 namespace {
@@ -40,14 +44,16 @@ SceneInput read_depth(const SceneSource& source) {
         "--depth needs --intrinsics: fx,fy,cx,cy, a BOP scene_camera.json or a ROS camera_info YAML");
   }
   const CameraFile camera = read_its_camera(source);
-  for (const std::string& warning : camera.warnings)
-    std::cerr << source.intrinsics << ": warning: " << warning << '\n';
   SceneInput scene;
   scene.file = source.depth.string();
   scene.camera = camera.camera;
   scene.image =
       read_depth_png(source.depth, source.depth_scale > 0 ? 1e-3 * source.depth_scale : camera.depth_scale);
   check_camera(scene.camera, source.intrinsics, scene.image.width, scene.image.height);
+  std::vector<std::string> warnings = camera.warnings;
+  warnings.push_back(off_centre_warning(scene.camera, scene.image.width, scene.image.height));
+  for (const std::string& warning : warnings)
+    if (!warning.empty()) std::cerr << source.intrinsics << ": warning: " << warning << '\n';
   if (camera.width && camera.height &&
       (*camera.width != scene.image.width || *camera.height != scene.image.height)) {
     const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
@@ -68,19 +74,33 @@ SceneInput read_projected_cloud(const SceneSource& source, LengthUnit unit) {
   }
   SceneInput scene;
   scene.file = source.cloud.string();
-  try {
-    ProjectedCloud projected = project_cloud(cloud.vertices, viewpoint);
-    scene.image = std::move(projected.image);
-    scene.camera = projected.camera;
-    scene.frame_T_camera = projected.cloud_T_camera;
-  } catch (const std::invalid_argument& error) {
-    throw InputError(scene.file + ": " + error.what());
-  }
+  ProjectedCloud projected = naming(scene.file, [&] { return project_cloud(cloud.vertices, viewpoint); });
+  scene.image = std::move(projected.image);
+  scene.camera = projected.camera;
+  scene.frame_T_camera = projected.cloud_T_camera;
   scene.frame = "cloud";
   return scene;
 }
 
 }  // namespace
+
+Scene prepare(const SceneInput& input, const SceneOptions& options) {
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+  for (const float depth : input.image.depth) {
+    if (!(depth > 0)) continue;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  const auto text = [](float metres) { return number_text(static_cast<double>(metres), 3); };
+  if (options.check().empty() && (nearest > options.max_depth || farthest < options.min_depth)) {
+    throw InputError::at(
+        input.file, "measurements from " + text(options.min_depth) + " to " + text(options.max_depth) + " m",
+        "only such from " + text(nearest) + " to " + text(farthest) + " m",
+        std::string("check ") + (input.frame == "camera" ? "--depth-scale" : "--unit") +
+            ", or widen scene.min_depth and max_depth with --config");
+  }
+  return naming(input.file, [&] { return prepare_scene(input.image, input.camera, options); });
+}
 
 void add_scene_options(CLI::App& command, SceneSource& source) {
   auto* depth = command.add_option("--depth", source.depth, "Depth image: 16-bit PNG, 0 = no measurement");
@@ -98,7 +118,7 @@ void add_scene_options(CLI::App& command, SceneSource& source) {
       ->needs(intrinsics);
   command
       .add_option("--depth-scale", source.depth_scale, "Millimetres per unit of the depth image (default 1)")
-      ->check(CLI::PositiveNumber)
+      ->check(number_between(1e3 * kMinDepthScale, 1e3 * kMaxDepthScale))
       ->needs(depth);
   auto* cloud =
       command.add_option("--cloud", source.cloud, "Unorganised cloud (PLY, PCD) instead of a depth image");

@@ -34,6 +34,10 @@ struct SceneInput {
 /// app.
 void add_scene_options(CLI::App& command, SceneSource& source);
 
+/// Prepares it for matching. Throws InputError that names the file; if nothing measured is within the
+/// options' depth range, with the range that was found.
+Scene prepare(const SceneInput& input, const SceneOptions& options);
+
 /// Reads it. `unit` is that of the cloud and its viewpoint. Warnings go to stderr.
 /// Throws InputError for bad files, and where the options contradict each other.
 SceneInput read_scene(const SceneSource& source, LengthUnit unit);

@@ -35,12 +35,19 @@ EvalOptions SetInput::options() const {
   return options;
 }
 
+std::vector<std::filesystem::path> SetInput::files(const TestSet& set) const {
+  std::vector<std::filesystem::path> list = {config};
+  for (const TestObject& object : set.objects) list.push_back(object.mesh);
+  for (const TestImage& image : set.images) list.push_back(image.cloud.empty() ? image.depth : image.cloud);
+  return list;
+}
+
 std::string SetInput::command_line() const {
   std::string text = shell_quoted(folder.string());
   for (const std::string& object : objects) text += " --objects " + shell_quoted(object);
   if (!images.empty()) text += " --images " + shell_quoted(images);
   if (!config.empty()) text += " --config " + shell_quoted(config.string());
-  if (threads != 0) text += " --threads " + std::to_string(threads);
+  if (threads) text += " --threads " + std::to_string(*threads);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,12 @@ struct SetInput {
   std::filesystem::path folder, config;
   std::vector<std::string> objects;
   std::string images;
-  int threads = 0;
+  std::optional<int> threads;
 
   void add_options(CLI::App& command);
-  TestSet read() const;              ///< the part that is wanted; throws InputError
-  EvalOptions options() const;       ///< defaults, or those of --config; throws InputError
+  TestSet read() const;         ///< the part that is wanted; throws InputError
+  EvalOptions options() const;  ///< defaults, or those of --config; throws InputError
+  std::vector<std::filesystem::path> files(const TestSet& set) const;  ///< that are read
   std::string command_line() const;  ///< "SET --objects ..." that gives the same part
 };
 

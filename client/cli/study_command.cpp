@@ -4,9 +4,11 @@
 #include <iostream>
 #include <memory>
 
+#include "client/cli/option_checks.h"
 #include "client/cli/progress_bar.h"
 #include "client/cli/set_input.h"
 #include "common/atomic_file.h"
+#include "common/output_target.h"
 #include "evaluation/report.h"
 #include "evaluation/study.h"
 
@@ -51,7 +53,7 @@ std::string StudyCommand::command_line() const {
 void StudyCommand::run() const {
   const std::vector<Experiment> list = wanted();
   const TestSet set = input.read();
-  if (!report.empty()) make_folder(report);
+  if (!report.empty()) check_output_folder(report);
   const PoseErrors errors = make_pose_errors(set);
 
   std::string document = "# Study of " + harmless_text(set.name) + "\n\n    " + command_line() + "\n\n",
@@ -61,8 +63,10 @@ void StudyCommand::run() const {
     const StudySection section = describe(set, experiment, results, group_modulo);
     std::cout << section.markdown << std::endl;
     if (report.empty()) continue;
-    document += section.markdown + draw_all(section.plots, report, warning) + "\n";
-    write_file_atomically(report / "study.md", document);  // after each, so that a stopped study is not lost
+    FileGroup files;  // one for each experiment, so that a stopped study is not lost
+    document += section.markdown + draw_all(section.plots, report, files, warning) + "\n";
+    files.add(report / "study.md", document);
+    files.commit();
   }
   if (!warning.empty()) std::cerr << "edgepose: warning: " << warning << std::endl;
   if (!report.empty()) std::cout << "Report: " << (report / "study.md").string() << "\n";
@@ -86,7 +90,7 @@ void add_study_command(CLI::App& app) {
       ->add_option("--group-by-modulo", command->group_modulo,
                    "Columns are image numbers modulo this, not objects")
       ->check(CLI::Range(1, 1000));
-  study->add_option("--report", command->report, "Folder for study.md and its plots (needs gnuplot)");
+  add_output_option(*study, "--report", command->report, "Folder for study.md and its plots (needs gnuplot)");
   study->footer(kStudyExamples);
   study->callback([command] { command->run(); });
 }

@@ -1,5 +1,6 @@
 #include "client/cli/text.h"
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -16,6 +17,11 @@ std::string formatted(const char* format, ...) {
   if (length > 0) std::vsnprintf(text.data(), text.size() + 1, format, again);
   va_end(again);
   return text;
+}
+
+double rounded(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale + 0.0;  // -0 + 0 is 0
 }
 
 }  // namespace edgepose

@@ -7,10 +7,11 @@
 
 #include "client/cli/mesh_input.h"
 #include "client/cli/model_input.h"
-#include "client/cli/progress_bar.h"
+#include "client/cli/option_checks.h"
 #include "client/cli/settings.h"
 #include "client/cli/text.h"
 #include "common/error.h"
+#include "common/output_target.h"
 #include "files/bop_json.h"
 #include "files/model_file.h"
 #include "files/whole_file.h"
@@ -28,6 +29,7 @@ constexpr size_t kMaxModelsInfoBytes = 64u << 20;
 struct TrainCommand {
   std::filesystem::path mesh, output, symmetries, config;
   LengthUnit unit = LengthUnit::kMillimetre;
+  bool any_size = false;
   std::string name;
   int object_id = 0;
   int threads = 0;
@@ -50,16 +52,17 @@ Symmetries read_symmetries(const std::filesystem::path& models_info, int object_
 void TrainCommand::run(bool threads_given) const {
   TrainOptions options = config.empty() ? TrainOptions{} : read_settings(config).train;
   if (threads_given) options.threads = threads;
-  const SoundMesh sound = read_sound_mesh(mesh, unit);
+  check_output(output, {mesh, symmetries, config});
+  const SoundMesh sound = read_sound_mesh(mesh, unit, limits_for(any_size));
   const Symmetries declared = symmetries.empty() ? Symmetries{} : read_symmetries(symmetries, object_id);
-  print_notes(std::cout, mesh, sound.health);
 
   const auto start = std::chrono::steady_clock::now();
   const std::string label = name.empty() ? mesh.stem().string() : name;
-  const Model model = train_model(sound.mesh, label, options, declared, progress_bar("training " + label));
+  const Model model = train_from(mesh, sound.mesh, label, options, declared);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   save_model(output, model);
 
+  print_notes(std::cout, mesh, sound.health);
   print_summary(std::cout, model);
   std::cout << formatted("trained in %.2f s; %s: %.1f MB\n", seconds, output.c_str(),
                          1e-6 * static_cast<double>(model.block().size()));
@@ -72,11 +75,13 @@ void add_train_command(CLI::App& app) {
   CLI::App* train =
       app.add_subcommand("train", "Train a model from a mesh (PLY, STL, OBJ) or cloud (PLY, PCD)");
   train->add_option("MESH", command->mesh, "Mesh or cloud of the object")->required();
-  train->add_option("-o,--output", command->output, "Model file to write")->required();
+  add_output_option(*train, "-o,--output", command->output, "Model file to write")->required();
   add_unit_option(*train, "--unit", command->unit, "the mesh");
+  add_any_size_option(*train, command->any_size);
   train->add_option("--name", command->name, "Name of the object (default: the mesh's file name)");
-  CLI::Option* file = train->add_option("--symmetries", command->symmetries,
-                                        "BOP models_info.json that declares symmetries (others are found)");
+  CLI::Option* file =
+      train->add_option("--symmetries", command->symmetries,
+                        "BOP models_info.json that declares symmetries (else they are found)");
   CLI::Option* id = train->add_option("--object-id", command->object_id, "The object's number in that file");
   file->needs(id);
   id->needs(file);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "tests/cli/program.h"
@@ -13,6 +14,9 @@ struct Case {
   std::string name;  ///< of the file
   std::string content;
   std::vector<std::string> words;  ///< that the message must hold, besides the file's name
+
+  /// How gtest names it in lists; else it prints the bytes.
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -34,6 +38,42 @@ std::string binary_stl(uint32_t claimed, uint32_t stored) {
 std::string pcd(const std::string& points, const std::string& body) {
   return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + points +
          "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA ascii\n" + body;
+}
+
+const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
+
+/// `ply` with the same normal at each of its 16 vertices.
+std::string with_normals(std::string ply, const std::string& normal) {
+  ply = replaced(ply, kXyz, kXyz + "property float nx\nproperty float ny\nproperty float nz\n");
+  size_t end = ply.find("end_header\n") + 11;
+  for (int i = 0; i < 16; ++i) {
+    end = ply.find('\n', end);
+    ply.insert(end, " " + normal);
+    end = ply.find('\n', end) + 1;
+  }
+  return ply;
+}
+
+std::string without_faces(std::string ply) {
+  const size_t faces = ply.find("element face");
+  ply.erase(faces, ply.find("end_header") - faces);
+  return ply.erase(ply.find("3 0 2 3\n"));
+}
+
+/// A spiral without normals.
+std::string cloud_ply(int points) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points) + "\n" + kXyz + "end_header\n";
+  for (int i = 0; i < points; ++i) {
+    ply += std::to_string(50 * std::cos(0.3 * i)) + " " + std::to_string(50 * std::sin(0.3 * i)) + " " +
+           std::to_string(i) + "\n";
+  }
+  return ply;
+}
+
+/// A tetrahedron of 2 m, 10 km away from the origin.
+std::string far_away_obj() {
+  return "v 1e7 0 0\nv 10002000 0 0\nv 1e7 2000 0\nv 1e7 0 2000\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 }
 
 std::vector<Case> cases() {
@@ -65,7 +105,16 @@ std::vector<Case> cases() {
        "1\nproperty list uchar int vertex_indices\nend_header\nnan nan nan\nnan nan nan\nnan nan nan\n3 0 1 "
        "2\n",
        {"expected", "found"}},
-      {"metres.ply", bracket_ply(0.1), {"--unit m", "mm"}},
+      {"one_nan.ply", replaced(sound, "\n0 0 0\n", "\nnan 0 0\n"), {"finite", "1 of 16 vertices"}},
+      {"infinite.obj", "v 0 0 0\nv 100 0 0\nv 0 inf 0\nv 0 0 100\nf 1 2 3\nf 1 2 4\n", {"finite", "1 of 4"}},
+      {"nan_cloud.pcd", pcd("3", "0 0 0\n100 0 0\nnan nan nan\n"), {"finite", "1 of 3"}},
+      {"zero_normals.ply", with_normals(sound, "0 0 0"), {"normals with a direction", "remove the normals"}},
+      {"zero_normals_cloud.ply", without_faces(with_normals(sound, "0 0 0")), {"normals with a direction"}},
+      {"few_points.ply", without_faces(with_normals(sound, "0 0 1")), {"100 points"}},
+      {"bare_cloud.ply", cloud_ply(200), {"normal"}},
+      {"far_away.obj", far_away_obj(), {"within 1000 m", "origin"}},
+      {"short.stl", std::string(82, 'x'), {"84 bytes", "82 bytes"}},
+      {"metres.ply", bracket_ply(0.1), {"--unit m", "mm", "--any-size"}},
   };
 }
 
@@ -76,9 +125,10 @@ TEST_P(BadMesh, IsRefusedInOneLineAndNothingIsWritten) {
   const std::string mesh = folder.write(GetParam().name, GetParam().content);
   std::vector<std::string> words = GetParam().words;
   words.push_back(mesh);
-  if (GetParam().name == "metres.ply") words = {mesh, "m"};
   expect_refused(edgepose({"train", mesh, "-o", folder / "out.model"}), words);
-  expect_refused(edgepose({"info", mesh}), words);
+  // Only training asks for more points, or for normals.
+  if (mesh.find("few_points") == std::string::npos && mesh.find("bare_cloud") == std::string::npos)
+    expect_refused(edgepose({"info", mesh}), words);
   EXPECT_THAT(folder.files(), testing::ElementsAre(GetParam().name));
 }
 
@@ -106,13 +156,23 @@ TEST(BadMesh, OutputThatCannotBeWrittenIsNamed) {
 
 TEST(BadMesh, WhatCanBeMendedIsMendedAndSaid) {
   const Folder folder;
-  // One more vertex that is NaN and one face that uses it; and a face without area.
-  std::string mesh = replaced(bracket_ply(100), "vertex 16", "vertex 17");
-  mesh = replaced(mesh, "face 24", "face 26");
-  mesh = replaced(mesh, "3 0 2 3\n", "nan nan nan\n3 0 1 16\n3 5 5 5\n3 0 2 3\n");
+  std::string mesh = replaced(bracket_ply(100), "face 24", "face 25");
+  mesh = replaced(mesh, "3 0 2 3\n", "3 5 5 5\n3 0 2 3\n");  // a face without area
   const Finished run = edgepose({"info", folder.write("mend.ply", mesh)});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("mended"));
+}
+
+TEST(BadMesh, AnySizeIsTakenWhenAskedFor) {
+  const Folder folder;
+  const std::string small = folder.write("small.ply", bracket_ply(3)),
+                    large = folder.write("large.ply", bracket_ply(8e3));
+  for (const std::string& mesh : {small, large}) {
+    expect_refused(edgepose({"info", mesh}), {mesh, "--any-size"});
+    expect_refused(edgepose({"train", mesh, "-o", folder / "m"}), {mesh, "--any-size"});
+    EXPECT_EQ(edgepose({"info", mesh, "--any-size"}).code, 0);
+    EXPECT_EQ(edgepose({"train", mesh, "-o", folder / "m", "--any-size"}).code, 0);
+  }
 }
 
 TEST(BadMesh, MetresAreReadWhenAskedFor) {

@@ -36,6 +36,33 @@ TEST(BadScene, DepthImageThatIsNone) {
   expect_refused(match_depth(folder.write("flipped.png", flipped)), {"flipped.png"});
 }
 
+TEST(BadScene, DepthThatCannotBeMatchedIsNamedWithItsRange) {
+  const Folder folder;
+  const std::string far = png(folder, "far.png", cv::Mat(480, 640, CV_16UC1, 30000));
+  expect_refused(match_depth(far), {"far.png", "0.05 to 10 m", "30 to 30 m", "--depth-scale"});
+  expect_refused(match_depth(png(folder, "near.png", cv::Mat(480, 640, CV_16UC1, 7))),
+                 {"near.png", "0.007 to 0.007 m", "--depth-scale"});
+  const auto tiny = png(folder, "tiny.png", cv::Mat(1, 1, CV_16UC1, 500));
+  expect_refused(match_depth(tiny, "1,1,0,0"), {"tiny.png", "1 x 1"});
+  for (const char* scale : {"nan", "inf", "1e308", "0", "one"}) {
+    const Finished run = edgepose({"match", phantom_model(), "--depth", far, "--intrinsics",
+                                   "504,504,319.5,287.5", "--depth-scale", scale});
+    expect_refused(run, {"--depth-scale", "0.0001 to 100", scale});
+    EXPECT_LT(run.err.size(), 200u) << run.err;
+  }
+}
+
+TEST(BadScene, WarningsNameTheFileOnce) {
+  const Folder folder;
+  const std::string yaml = folder.write(
+      "w.yaml",
+      "height: 576\nwidth: 640\nD: [0.1, 0, 0, 0, 0]\nK: [504, 0, 319.5, 0, 504, 287.5, 0, 0, 1]\n");
+  const Finished run = match_depth(phantom_file("scene/depth.png"), yaml);
+  EXPECT_THAT(run.err, testing::HasSubstr("w.yaml: warning: lens distortion"));
+  const Finished cut = match_depth(phantom_file("scene/depth.png"), "504,504,-20,287.5");
+  EXPECT_THAT(cut.err, testing::HasSubstr("warning: the principal point (-20, 287.5)"));
+}
+
 TEST(BadScene, CameraThatIsNone) {
   const std::string depth = phantom_file("scene/depth.png");
   const Folder folder;
@@ -44,7 +71,9 @@ TEST(BadScene, CameraThatIsNone) {
   expect_refused(match_depth(depth, "0,504,319.5,287.5"), {"0"});
   expect_refused(match_depth(depth, "504,504,319.5"), {"fx,fy,cx,cy"});
   expect_refused(match_depth(depth, "nan,504,319.5,287.5"), {"nan"});
-  expect_refused(match_depth(depth, "504,504,5000,287.5"), {"5000"});
+  expect_refused(match_depth(depth, "504,504,7000,287.5"), {"7000", "640 x 576"});
+  for (const char* fx : {"1e-30", "0.001", "50", "1e5"})
+    expect_refused(match_depth(depth, std::string(fx) + ",504,319.5,287.5"), {fx, "fx"});
   expect_refused(match_depth(depth, folder / "no.json"), {"no.json"});
   expect_refused(match_depth(depth, folder.write("half.json", "{\"0\": {\"cam_K\": [1, 2")), {"half.json"});
   expect_refused(

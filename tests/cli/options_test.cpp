@@ -45,6 +45,9 @@ TEST(CliOptions, WrongUsageIsBadInputAndNamesTheOption) {
   expect_refused(edgepose({"match", "m"}), {"--depth", "--cloud"});
   expect_refused(edgepose({"match", "m", "--cloud", "c.ply", "--viewpoint", "1,2"}), {"--viewpoint"});
   expect_refused(edgepose({"match", "m", "--cloud", "c.ply", "--max-instances", "0"}), {"--max-instances"});
+  expect_refused(edgepose({"match", "m", "--cloud", "c.ply", "--max-instances", "101"}),
+                 {"--max-instances", "100"});
+  expect_refused(edgepose({"match", "m", "--cloud", "c.ply", "--accept", "nan"}), {"--accept", "nan"});
   expect_refused(edgepose({"match", "m", "--depth", "d.png", "--depth-scale", "0"}), {"--depth-scale"});
   expect_refused(edgepose({"match", "m", "--cloud", "c.ply", "--accept", "2"}), {"--accept"});
   expect_refused(edgepose({"info"}), {"FILE"});

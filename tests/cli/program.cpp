@@ -42,7 +42,7 @@ void add_box(const std::array<double, 3>& low, const std::array<double, 3>& high
 
 }  // namespace
 
-Finished edgepose(const std::vector<std::string>& arguments) {
+Finished edgepose(const std::vector<std::string>& arguments, const std::string& output) {
   const Folder folder;
   const std::string out = folder / "out", err = folder / "err";
   std::string program = std::string(EDGEPOSE_PROGRAM_DIR) + "/edgepose";
@@ -54,7 +54,10 @@ Finished edgepose(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
+  if (output.empty())
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
+  else
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
   pid_t child = 0;
   const int failed = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);

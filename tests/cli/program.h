@@ -11,8 +11,9 @@ struct Finished {
   std::string out, err;
 };
 
-/// Runs `edgepose ARGUMENTS...` and waits for it. No shell: arguments may hold anything.
-Finished edgepose(const std::vector<std::string>& arguments);
+/// Runs `edgepose ARGUMENTS...` and waits for it. No shell: arguments may hold anything. With `output`, what
+/// it prints goes to that file or device, which must exist, and Finished::out stays empty.
+Finished edgepose(const std::vector<std::string>& arguments, const std::string& output = "");
 
 /// Expects exit code 2, nothing on stdout, and one line on stderr, "edgepose: ...", that contains all of
 /// `words`.

@@ -104,6 +104,15 @@ TEST(MatchReport, AnotherFrameTurnsPosesAndCovariances) {
   EXPECT_TRUE((moved.detections[0].covariance.topRightCorner<3, 3>()).isApprox(expected, 1e-9));
 }
 
+TEST(MatchReport, NoZeroHasASign) {
+  NamedResult named = one_detection();
+  named.result.detections[0].camera_T_model.translation() = Eigen::Vector3d(-1e-6, -4e-6, 0.5);
+  std::ostringstream out;
+  print_table(out, {named}, "camera", 0.01);
+  EXPECT_THAT(out.str(), testing::HasSubstr("    0.00     0.00   500.00"));
+  EXPECT_THAT(out.str(), testing::Not(testing::HasSubstr("-0.00")));
+}
+
 TEST(MatchReport, TableTellsTheReason) {
   NamedResult absent{"thing", "thing.model", 0.1, Eigen::Vector3d::Zero(), {}, {}};
   absent.result.reason = "nothing scored above 0.5";

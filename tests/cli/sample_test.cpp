@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "files/bop_json.h"
@@ -94,6 +95,27 @@ TEST(Sample, TableAndOverlay) {
   EXPECT_EQ(samples.cols, 2 * 640);  // the whole image
   EXPECT_FALSE(cv::imread(folder / "mesh.png").empty());
   EXPECT_THAT(folder.files(), testing::ElementsAre("found.png", "mesh.png"));
+}
+
+/// Pixels of the colour that holes are drawn in.
+int target_pixels(const std::string& picture) {
+  cv::Mat mask;
+  cv::inRange(cv::imread(picture), cv::Scalar(40, 222, 255), cv::Scalar(40, 222, 255), mask);
+  return cv::countNonZero(mask);
+}
+
+TEST(Sample, TheOverlayShowsThePlansHolesWithAndWithoutAMesh) {
+  const Folder folder;
+  const std::string plan = phantom_file("drill_plan.json");
+  ASSERT_EQ(edgepose(with_depth({"--overlay", folder / "none.png"})).code, 0);
+  ASSERT_EQ(edgepose(with_depth({"--plan", plan, "--overlay", folder / "samples.png"})).code, 0);
+  ASSERT_EQ(edgepose(with_depth({"--plan", plan, "--overlay", folder / "mesh.png", "--mesh",
+                                 phantom_file("phantom.ply")}))
+                .code,
+            0);
+  EXPECT_EQ(target_pixels(folder / "none.png"), 0);
+  EXPECT_GT(target_pixels(folder / "mesh.png"), 100);
+  EXPECT_GT(target_pixels(folder / "samples.png"), 100);
 }
 
 TEST(Sample, TheResultDoesNotDependOnTheThreads) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "client/cli/nearest_word.h"
+#include "client/cli/set_input.h"
 
 namespace edgepose::test {
 namespace {
@@ -94,6 +95,16 @@ TEST(Settings, AFileOverridesOnlyWhatItNames) {
   EXPECT_EQ(settings.match.verification, Verification::kPaper);
   EXPECT_EQ(settings.match.paper.candidates, 5);
   EXPECT_EQ(settings.match.max_instances, MatchOptions{}.max_instances);
+}
+
+TEST(Settings, ThreadsOfTheFileStandUnlessTheOptionIsGiven) {
+  SetInput input;
+  input.config = temporary("[train]\nthreads = 3\n[match]\nthreads = 2\n");
+  EXPECT_FALSE(input.options().threads.has_value());
+  EXPECT_EQ(input.options().train.threads, 3);
+  EXPECT_EQ(input.options().match.threads, 2);
+  input.threads = 1;
+  EXPECT_EQ(input.options().threads, 1);
 }
 
 TEST(NearestWord, HasTheFewestChanges) {

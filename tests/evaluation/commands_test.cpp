@@ -79,7 +79,10 @@ TEST_F(Commands, BadInputIsOneLineAndExitCodeTwo) {
        {std::string("eval"), std::string("eval /no/such/set"), "eval " + set + " --images 7-3",
         "eval " + set + " --images 5", "eval " + set + " --objects cone", "eval " + set + " --threads -1",
         "eval " + set + " --group-by-modulo 0", "eval " + set + " --results /no/such/folder/out.csv",
-        "eval " + set + " --report " + file, "eval " + set + " --config /no/such.toml", std::string("study"),
+        "eval " + set + " --report " + file, "eval " + set + " --report /proc/report",
+        "study " + set + " --report /proc/report",
+        "eval " + set + " --results '" + (rendered.folder / "test/000001/depth/000001.png").string() + "'",
+        "eval " + set + " --config /no/such.toml", std::string("study"),
         "study " + set + " --experiment colour", "study " + file}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.text;
@@ -90,8 +93,10 @@ TEST_F(Commands, BadInputIsOneLineAndExitCodeTwo) {
 
 TEST_F(Commands, ADamagedSetIsRefused) {
   std::ofstream(rendered.folder / "test" / "000001" / "depth" / "000001.png") << "no PNG";
-  const Outcome outcome = run("eval " + set);
+  const auto report = rendered.folder / "new" / "report";
+  const Outcome outcome = run("eval " + set + " --report '" + report.string() + "'");
   EXPECT_EQ(outcome.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(rendered.folder / "new")) << "an empty folder is left";
   EXPECT_NE(outcome.text.find("000001.png"), std::string::npos) << outcome.text;
 }
 

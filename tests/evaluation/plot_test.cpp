@@ -29,6 +29,12 @@ class PlotTest : public ::testing::Test {
     return text.str();
   }
 
+  void draw_now(const Plot& plot) const {
+    FileGroup files;
+    draw(plot, folder, files);
+    files.commit();
+  }
+
   std::filesystem::path folder;
 };
 
@@ -47,7 +53,7 @@ TEST_F(PlotTest, DrawsEveryKind) {
   for (auto kind : {Plot::Kind::kBars, Plot::Kind::kStackedBars}) {
     Plot plot = bars();
     plot.kind = kind;
-    draw(plot, folder);
+    draw_now(plot);
     EXPECT_EQ(content(folder / "bars.png").substr(1, 3), "PNG");
   }
   for (auto kind : {Plot::Kind::kLines, Plot::Kind::kSteps, Plot::Kind::kPoints, Plot::Kind::kHistogram}) {
@@ -58,7 +64,7 @@ TEST_F(PlotTest, DrawsEveryKind) {
               .y_label = "y",
               .series = {{"first", {1, 2, 3}, {3, 1, 2}}},
               .log_x = true};
-    draw(plot, folder);
+    draw_now(plot);
     EXPECT_GT(std::filesystem::file_size(folder / "curve.png"), 1000u);
   }
 }
@@ -70,7 +76,7 @@ TEST_F(PlotTest, NamesFromFilesAreNotRun) {
   plot.labels = {"`touch " + trap.string() + "`", "\"; system(\"touch " + trap.string() + "\"); \""};
   plot.title = "'; system('touch " + trap.string() + "'); '";
   plot.series[0].name = "$(touch " + trap.string() + ")\nEND\n!touch " + trap.string();
-  draw(plot, folder);
+  draw_now(plot);
   EXPECT_FALSE(std::filesystem::exists(trap));
 }
 
@@ -80,20 +86,23 @@ TEST_F(PlotTest, WithoutGnuplotThereIsAWarningAndNoPlot) {
   setenv("PATH", folder.c_str(), 1);
   std::string warning;
   std::string markdown;
-  EXPECT_NO_THROW(markdown = draw_all({bars()}, folder, warning));
-  EXPECT_THROW(draw(bars(), folder), InputError);
+  FileGroup files;
+  EXPECT_NO_THROW(markdown = draw_all({bars()}, folder, files, warning));
+  EXPECT_THROW(draw_now(bars()), InputError);
   setenv("PATH", kept.c_str(), 1);
   EXPECT_NE(warning.find("gnuplot"), std::string::npos);
   EXPECT_EQ(warning.find('\n'), std::string::npos);
   EXPECT_NE(markdown.find("gnuplot"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "bars.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "bars.gp")) << "a script whose plot failed";
 }
 
 TEST_F(PlotTest, RefusesAFolderThatIsAFile) {
   std::ofstream(folder / "file") << "x";
   std::string warning;
-  EXPECT_THROW(draw_all({}, folder / "file", warning), InputError);
-  EXPECT_THROW(make_folder(folder / "file" / "below"), InputError);
+  FileGroup files;
+  EXPECT_THROW(draw_all({}, folder / "file", files, warning), InputError);
+  EXPECT_THROW(draw_all({}, folder / "file" / "below", files, warning), InputError);
 }
 
 TEST(HarmlessText, KeepsNamesAndDropsSyntax) {

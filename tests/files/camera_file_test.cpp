@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "files/camera_check.h"
 #include "tests/files/bad_input.h"
 #include "tests/shared_data.h"
 
@@ -57,12 +60,24 @@ TEST(CameraFile, RefusesUnsoundNumbers) {
       {"600,600,320", "found 3"},     {"600,600,320,240,1", "found 5"},
       {"600,x,320,240", "'x'"},       {"600,,320,240", "''"},
       {"0,600,320,240", "fx"},        {"600,-600,320,240", "fy"},
-      {"600,600,-320,240", "cx"},     {"600,600,320,0", "cy"},
+      {"600,600,-1e7,240", "cx"},     {"600,600,320,1e7", "cy"},
+      {"1e-30,600,320,240", "fx"},    {"600,0.001,320,240", "fy"},
       {"600,600,nan,240", "'nan'"},   {"inf,600,320,240", "'inf'"},
       {"1e9,600,320,240", "fx"},      {"600,600,320,240mm", "'240mm'"},
       {"1e999,600,320,240", "1e999"}, {",,,", "''"}};
   for (const auto& [spec, found] : cases)
     expect_input_error([&] { read_camera(spec); }, {"intrinsics", found});
+}
+
+TEST(CameraCheck, GoesByTheSizeOfTheImage) {
+  EXPECT_NO_THROW(check_camera({600, 600, -700, 900}, "K", 640, 480)) << "cut out of a larger image";
+  EXPECT_NO_THROW(check_camera({600, 600, 320, -400}, "K", 640, 16));
+  EXPECT_EQ(off_centre_warning({600, 600, 0, 479.5}, 640, 480), "");
+  EXPECT_THAT(off_centre_warning({600, 600, -1, 240}, 640, 480), testing::HasSubstr("640 x 480"));
+  for (const double fx : {0.0, -1.0, 1e-30, 0.001, 63.0, 64001.0, std::nan("")})
+    expect_input_error([&] { check_camera({fx, 600, 320, 240}, "K", 640, 480); }, {"K: expected fx", "640"});
+  for (const double cx : {-6401.0, 6401.0, std::nan("")})
+    expect_input_error([&] { check_camera({600, 600, cx, 240}, "K", 640, 480); }, {"K: expected cx", "640"});
 }
 
 TEST(CameraFile, RefusesWhatIsNeitherFileNorNumbers) {
@@ -142,7 +157,7 @@ TEST(CameraFile, RefusesUnsoundJson) {
       {replaced(kSceneCamera, "\"3\"", "\"-3\""), "other members"},
       {kSceneCamera.substr(0, kSceneCamera.size() - 5), "cut short"},
       {replaced(kCameraJson, "\"fx\"", "\"f\""), "\"fx\""},
-      {replaced(kCameraJson, "325.26", "725.26"), "another resolution"},
+      {replaced(kCameraJson, "325.26", "7250.26"), "another resolution"},
       {replaced(kCameraJson, "572.41", "-572.41"), "fx"},
       {R"({"camera": {}})", "other members"},
       {"{}", "at least one image"}};
@@ -160,7 +175,7 @@ TEST(CameraFile, RefusesUnsoundYaml) {
       {replaced(kCalibrationYaml, "camera_matrix", "cam"), "camera_matrix"},
       {replaced(kCalibrationYaml, "[570.5, 0., 319.5, 0., 571.5, 239.5, 0., 0., 1.]", "7"),
        "list of numbers"},
-      {replaced(kCalibrationYaml, "image_width: 640", "image_width: 300"), "another resolution"},
+      {replaced(kCalibrationYaml, "319.5", "6400.5"), "another resolution"},
       {replaced(kCalibrationYaml, "image_width: 640", "image_width: wide"), "'wide'"},
       {replaced(kEchoYaml, "K: [570.5, 0.0, 319.5, 0.0, 571.5, 239.5, 0.0, 0.0, 1.0]",
                 "K: [0, 0, 0, 0, 0, 0, 0, 0, 0]"),
@@ -184,8 +199,8 @@ TEST(CameraFile, SurvivesRandomDamage) {
        {kSceneCamera, kCameraJson, kCalibrationYaml, kEchoYaml, std::string("600,600,320,240")})
     survive_damage(good, 2000, [](const std::string& text) {
       const Camera camera = parse_camera_file(text, "damaged", 3).camera;
-      for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy})
-        EXPECT_TRUE(value > 0 && value <= 1e6);
+      for (const double value : {camera.fx, camera.fy}) EXPECT_TRUE(value >= 1 && value <= 1e6);
+      for (const double value : {camera.cx, camera.cy}) EXPECT_TRUE(std::abs(value) <= 1e6);
     });
 }
 

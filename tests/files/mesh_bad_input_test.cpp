@@ -145,7 +145,7 @@ TEST(BadStl, CutShortOrLying) {
   binary += bytes_of(uint32_t{2}) + std::string(100, '\0');
   EXPECT_EQ(parse_text(binary, "a.stl").triangles.size(), 2u);
   refused(binary.substr(0, 183), "a.stl", {"184 bytes", "183 bytes", "2 triangles"});
-  refused(binary.substr(0, 40), "a.stl", {"STL"});
+  refused(binary.substr(0, 82), "a.stl", {"STL", "84 bytes", "82 bytes"});
   refused(binary + "x", "a.stl", {"185 bytes"});
   binary.replace(80, 4, bytes_of(uint32_t{1000000000}));
   refused(binary, "a.stl", {"1000000000 triangles", "184 bytes"});
@@ -224,7 +224,9 @@ TEST(BadPcd, Body) {
   refused(pcd("ascii") + "0.5 0 0\n0 0\n", "a.pcd", {"line 13", "end of the file"});
   refused(pcd("ascii") + "0 0 0\n0 0 0\n0\n", "a.pcd", {"end of the file", "'0'"});
   refused(pcd("ascii") + "0 0 0\n0 0 x\n", "a.pcd", {"line 12", "'x'"});
-  refused(pcd("ascii") + "nan nan nan\n0 inf 0\n", "a.pcd", {"finite"});
+  const std::string no_number = pcd("ascii") + "nan nan nan\n0 inf 0\n";
+  expect_input_error([&] { parse_cloud(std::as_bytes(std::span(no_number)), "a.pcd", LengthUnit::kMetre); },
+                     {"a.pcd", "finite"});
   refused(pcd("binary") + std::string(23, '\0'), "a.pcd", {"12 bytes", "2 points", "23 bytes"});
   refused(pcd("binary_compressed") + "1234", "a.pcd", {"8 bytes"});
   const std::string packed(25, '\x17');  // a run of 24 literals
@@ -251,11 +253,11 @@ TEST(BadMesh, UnitsThatCannotBe) {
   write_ply(folder / "a.ply", ball(0.1f), LengthUnit::kMetre);
   EXPECT_NO_THROW(load(LengthUnit::kMetre));
   expect_input_error([&] { load(LengthUnit::kMillimetre); },
-                     {"a.ply", "0.2 mm", "in metres, not millimetres", "200 mm then"});
+                     {"a.ply", "0.2 mm", "in metres, not millimetres", "200 mm with --unit m)"});
   write_ply(folder / "a.ply", ball(0.1f), LengthUnit::kMillimetre);
   EXPECT_NO_THROW(load(LengthUnit::kMillimetre));
   expect_input_error([&] { load(LengthUnit::kMetre); },
-                     {"a.ply", "200 m", "in millimetres, not metres", "200 mm then"});
+                     {"a.ply", "200 m", "in millimetres, not metres", "200 mm with --unit mm)"});
 }
 
 }  // namespace

@@ -45,7 +45,15 @@ class DamagedMesh : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(DamagedMesh, SeedsAreSound) {
-  for (const std::string& seed : seeds_) EXPECT_TRUE(try_one(seed));
+  for (const std::string& seed : seeds_) {
+    if (seed.find("nan") == std::string::npos) {
+      EXPECT_TRUE(try_one(seed));
+      continue;
+    }
+    EXPECT_FALSE(try_one(seed)) << "no model has points that are not finite";
+    const auto bytes = std::as_bytes(std::span(seed));
+    EXPECT_NO_THROW(parse_cloud(bytes, "scene." + GetParam(), LengthUnit::kMillimetre));
+  }
 }
 
 TEST_P(DamagedMesh, CutShortAnywhere) {

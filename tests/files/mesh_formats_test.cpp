@@ -109,7 +109,8 @@ TEST(PcdReader, Ascii) {
   const std::string text =
       pcd_header("FIELDS rgb x y z\nSIZE 4 4 4 4\nTYPE U F F F\nCOUNT 2 1 1 1\n", "ascii") +
       "1 2 10 20 30\n1 2 nan nan nan\n1 2 -1e1 +2.5 0\n";
-  const Mesh mesh = parse_text(text, "a.pcd", LengthUnit::kMillimetre);
+  EXPECT_EQ(parse_text(text, "a.pcd").vertices.size(), 3u) << "a model's points are judged by mend_mesh()";
+  const Cloud mesh = parse_cloud(std::as_bytes(std::span(text)), "a.pcd", LengthUnit::kMillimetre);
   ASSERT_EQ(mesh.vertices.size(), 2u);
   EXPECT_EQ(mesh.vertices[0], Eigen::Vector3f(0.01f, 0.02f, 0.03f));
   EXPECT_EQ(mesh.vertices[1], Eigen::Vector3f(-0.01f, 0.0025f, 0));

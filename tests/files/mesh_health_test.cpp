@@ -12,6 +12,7 @@
 namespace edgepose {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -55,21 +56,33 @@ TEST(MeshHealth, VerticesThatAreNotFinite) {
   Mesh mesh = ball(0.05f);
   mesh.vertices[100].y() = kNan;
   mesh.vertices[200].z() = -kInfinity;
-  EXPECT_EQ(check_mesh(mesh).non_finite_vertices, 2u);
-  const Mesh mended = mend(mesh, "2 points and the triangles at them");
-  EXPECT_EQ(mended.vertices.size(), mesh.vertices.size() - 2);
-  EXPECT_EQ(mended.triangles.size(), mesh.triangles.size() - 12);
-  for (const Eigen::Vector3f& vertex : mended.vertices) EXPECT_NEAR(vertex.norm(), 0.05, 1e-6);
+  MeshHealth health = check_mesh(mesh);
+  EXPECT_EQ(health.non_finite_vertices, 2u);
+  expect_input_error([&] { mend_mesh(mesh, health, "a.ply"); },
+                     {"a.ply: expected finite", "2 of 408 vertices", "export"});
+  mesh.triangles.clear();
+  health = check_mesh(mesh);
+  expect_input_error([&] { mend_mesh(mesh, health, "a.ply"); },
+                     {"a.ply: expected finite", "2 of 408 vertices"});
+}
+
+TEST(MeshHealth, TooFarFromTheOrigin) {
+  Mesh mesh = ball(0.05f);
+  for (Eigen::Vector3f& vertex : mesh.vertices) vertex.x() += 5000;
+  MeshHealth health = check_mesh(mesh, {.min_diameter = 0, .max_diameter = 1e9});
+  expect_input_error([&] { mend_mesh(mesh, health, "a.ply"); },
+                     {"a.ply", "within 1000 m", "5e+03 m", "origin"});
 }
 
 TEST(MeshHealth, NothingUsable) {
   Mesh mesh = tetrahedron();
   for (Eigen::Vector3f& vertex : mesh.vertices) vertex.x() = kNan;
   MeshHealth health = check_mesh(mesh);
-  expect_input_error([&] { mend_mesh(mesh, health, "a.stl"); }, {"a.stl", "usable triangles", "4 triangles"});
+  expect_input_error([&] { mend_mesh(mesh, health, "a.stl"); },
+                     {"a.stl", "finite coordinates", "4 of 4 vertices"});
   mesh.triangles.clear();
   health = check_mesh(mesh);
-  expect_input_error([&] { mend_mesh(mesh, health, "a.ply"); }, {"a.ply", "finite points"});
+  expect_input_error([&] { mend_mesh(mesh, health, "a.ply"); }, {"a.ply", "finite coordinates"});
   mesh = tetrahedron();
   for (Eigen::Vector3f& vertex : mesh.vertices) vertex = Eigen::Vector3f(vertex.x(), 0, 0);
   health = check_mesh(mesh);
@@ -108,6 +121,12 @@ TEST(MeshHealth, NeedlesAreDroppedButCloseTheSurface) {
   EXPECT_EQ(health.degenerate_triangles, 1u);
   EXPECT_TRUE(health.closed());
   EXPECT_EQ(health.inconsistent_edges, 0u);
+}
+
+TEST(MeshHealth, SharesReadAsPeopleWriteThem) {
+  Mesh mesh = tetrahedron();
+  mesh.triangles = {{0, 2, 1}};  // every edge is open
+  EXPECT_THAT(check_mesh(mesh).warnings, Contains(HasSubstr("(100 %)")));
 }
 
 TEST(MeshHealth, InsideOut) {
@@ -234,11 +253,11 @@ TEST(MeshHealth, NormalsOfAllBadKinds) {
 TEST(MeshHealth, AllNormalsZeroAndTooFewNormals) {
   Mesh mesh = ball(0.05f);
   for (Eigen::Vector3f& normal : mesh.normals) normal.setZero();
-  for (const Eigen::Vector3f& normal : mend(mesh, "normals that had no direction").normals) {
-    EXPECT_NEAR(normal.norm(), 1, 1e-5);
-  }
-  mesh.normals.resize(7);
   MeshHealth health = check_mesh(mesh);
+  expect_input_error([&] { mend_mesh(mesh, health, "a.ply"); },
+                     {"a.ply", "normals with a direction", "remove the normals"});
+  mesh.normals.resize(7);
+  health = check_mesh(mesh);
   EXPECT_THAT(health.warnings, Contains(HasSubstr("7 normals")));
   EXPECT_TRUE(mend_mesh(mesh, health).normals.empty());
 }
@@ -247,6 +266,7 @@ TEST(MeshHealth, BothSidesOfASheetKeepTheirNormals) {
   Mesh mesh = sheet();
   for (const auto& [a, b, c] : sheet().triangles) mesh.triangles.push_back({a, c, b});
   mesh.normals.assign(mesh.vertices.size(), Eigen::Vector3f::Zero());
+  mesh.normals[0].z() = 1;
   MeshHealth health = check_mesh(mesh);
   for (const Eigen::Vector3f& normal : mend_mesh(mesh, health).normals) EXPECT_NEAR(normal.norm(), 1, 1e-5);
 }
@@ -260,20 +280,22 @@ TEST(CloudHealth, NormalsInwardsOrMissing) {
   for (Eigen::Vector3f& normal : cloud.normals) normal *= -2;
   EXPECT_TRUE(check_mesh(cloud).inverted);
   cloud.normals[30].setZero();
-  cloud.vertices[31].x() = kNan;
   const Mesh mended = mend(cloud, "pointed inwards");
-  EXPECT_EQ(mended.vertices.size(), cloud.vertices.size() - 2);
+  EXPECT_EQ(mended.vertices.size(), cloud.vertices.size() - 1);
   for (size_t i = 0; i < mended.vertices.size(); ++i) {
     EXPECT_NEAR(mended.normals[i].dot(mended.vertices[i]), 0.05, 1e-5);
   }
   for (Eigen::Vector3f& normal : cloud.normals) normal.setZero();
-  EXPECT_TRUE(mend(cloud, "none had a direction").normals.empty());
+  MeshHealth health = check_mesh(cloud);
+  expect_input_error([&] { mend_mesh(cloud, health, "a.ply"); }, {"a.ply", "compute the cloud's normals"});
 }
 
 TEST(MeshHealth, SizeOutsideTheLimits) {
   EXPECT_EQ(check_mesh(ball(0.05f)).size_complaint(), "");
-  EXPECT_THAT(check_mesh(ball(0.0005f)).size_complaint(), HasSubstr("metres, not millimetres"));
-  EXPECT_THAT(check_mesh(ball(50)).size_complaint(), HasSubstr("millimetres, not metres"));
+  EXPECT_THAT(check_mesh(ball(0.0005f)).size_complaint(),
+              AllOf(HasSubstr("metres, not millimetres"), HasSubstr("--unit m)"), HasSubstr("--any-size")));
+  EXPECT_THAT(check_mesh(ball(50)).size_complaint(),
+              HasSubstr("millimetres, not metres (it would be 100 mm with --unit mm)"));
   EXPECT_THAT(check_mesh(ball(1e6f)).size_complaint(), HasSubstr("outside 5 mm to 5 m"));
   EXPECT_EQ(check_mesh(ball(0.0005f), {.min_diameter = 1e-4, .max_diameter = 1}).size_complaint(), "");
 }

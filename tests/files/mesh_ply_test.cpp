@@ -127,11 +127,12 @@ TEST(PlyReader, TriangleStripsTurnEveryOtherTriangle) {
               ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}, Triangle{2, 3, 4}, Triangle{2, 3, 4}));
 }
 
-TEST(PlyReader, CloudLosesPointsThatAreNotFinite) {
+TEST(PlyReader, SceneCloudLosesPointsThatAreNotFinite) {
   const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n" + kVertexXyz +
                            "property float nx\nproperty float ny\nproperty float nz\nend_header\n"
                            "1 2 3 0 0 1\nnan 0 0 0 1 0\n4 5 6 1 0 0\n";
-  const Mesh mesh = parse_text(text, "a.ply");
+  EXPECT_EQ(parse_text(text, "a.ply").vertices.size(), 3u);
+  const Cloud mesh = parse_cloud(std::as_bytes(std::span(text)), "a.ply", LengthUnit::kMetre);
   ASSERT_EQ(mesh.vertices.size(), 2u);
   EXPECT_EQ(mesh.vertices[1], Eigen::Vector3f(4, 5, 6));
   EXPECT_EQ(mesh.normals[1], Eigen::Vector3f(1, 0, 0));
