@@ -1,5 +1,7 @@
 #include "common/atomic_file.h"
 
+#include <algorithm>
+
 #include "common/error.h"
 #include "common/output_target.h"
 
@@ -25,8 +27,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view t
 FileGroup::~FileGroup() {
   files_.clear();
   std::error_code ignored;  // a folder that somebody else has put something into stays
-  for (auto folder = new_folders_.rbegin(); folder != new_folders_.rend(); ++folder)
-    std::filesystem::remove(*folder, ignored);
+  std::for_each(new_folders_.rbegin(), new_folders_.rend(),
+                [&](const auto& folder) { std::filesystem::remove(folder, ignored); });
 }
 
 void FileGroup::make_folder(const std::filesystem::path& folder) {
@@ -37,8 +39,9 @@ void FileGroup::make_folder(const std::filesystem::path& folder) {
     missing.push_back(above);
     if (!above.has_relative_path()) break;
   }
-  for (auto path = missing.rbegin(); path != missing.rend(); ++path)
-    if (std::filesystem::create_directory(*path, failure)) new_folders_.push_back(*path);
+  std::for_each(missing.rbegin(), missing.rend(), [&](const auto& path) {
+    if (std::filesystem::create_directory(path, failure)) new_folders_.push_back(path);
+  });
   if (!std::filesystem::is_directory(folder, failure))
     throw InputError::at(folder.string(), "a folder that can be made", "none", "name another");
 }

@@ -68,7 +68,7 @@ CameraFile from_map(const YAML::Node& map, const std::string& name) {
   if (distortion && !distortion.IsNull()) {
     const std::vector<double> terms = numbers(distortion, name + ": " + distortion_key);
     if (std::any_of(terms.begin(), terms.end(), [](double term) { return term != 0; }))
-      file.warnings.push_back("lens distortion is ignored; give a rectified depth image");
+      file.warnings.emplace_back("lens distortion is ignored; give a rectified depth image");
   }
   return file;
 }

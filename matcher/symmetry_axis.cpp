@@ -112,9 +112,8 @@ void refit_axis(const SelfMatch& self, const Fold& fold, SymmetryAxis& axis) {
     int used = 0;
     for (int k = 1; k <= 4; ++k) {
       // The nearer to half a turn, the better a turn shows its axis.
-      const double angle = fold.round
-                               ? (0.6 + 0.13 * k) * kPi
-                               : 2 * kPi * ((fold.parts + 1) / 2 + k / 2 * (k % 2 ? 1 : -1)) / fold.parts;
+      const int parts = (fold.parts + 1) / 2 + k / 2 * (k % 2 ? 1 : -1);
+      const double angle = fold.round ? (0.6 + 0.13 * k) * kPi : 2 * kPi * parts / fold.parts;
       const double sine = std::abs(std::sin(angle / 2));
       if (sine < 0.5) continue;
       RigidTransform turn = turn_about(axis, angle);

@@ -124,9 +124,10 @@ void RenderCommand::run(bool image_given) const {
   std::map<std::filesystem::path, Mesh> loaded;
   DepthRenderer renderer;
   for (const PlacedMesh& object : placed) {
-    auto [entry, is_new] = loaded.try_emplace(object.mesh);
-    if (is_new) entry->second = read_mesh(object.mesh, unit);
-    naming(object.mesh.string(), [&] { renderer.add(entry->second, object.camera_T_model); });
+    const auto [entry, is_new] = loaded.try_emplace(object.mesh);
+    Mesh& mesh = entry->second;
+    if (is_new) mesh = read_mesh(object.mesh, unit);
+    naming(object.mesh.string(), [&] { renderer.add(mesh, object.camera_T_model); });
   }
   const RenderedView view = renderer.render(file.camera, width, height, threads);
   const DepthImage depth = apply_sensor(view.depth, file.camera, model, seed, threads);
