@@ -148,6 +148,7 @@ void resolve_conflicts(const Scene& scene_handle, const std::vector<const Model*
   std::stable_sort(claims.begin(), claims.end(),
                    [](const Claim& a, const Claim& b) { return a.cells.size() > b.cells.size(); });
   constexpr float kTaken = 0.6f;
+  std::vector<std::string> better(results.size());
   for (size_t i = 0; i < claims.size(); ++i) {
     MatchResult& result = results[claims[i].model];
     for (size_t k = 0; k < i; ++k) {
@@ -155,9 +156,17 @@ void resolve_conflicts(const Scene& scene_handle, const std::vector<const Model*
       if (!other.detections[claims[k].detection].accepted || claims[k].model == claims[i].model) continue;
       if (overlap(claims[i].cells, claims[k].cells) < kTaken) continue;
       result.detections[claims[i].detection].accepted = false;
-      result.reason = "what it would explain is explained better by " + models[claims[k].model]->name();
+      better[claims[i].model] = models[claims[k].model]->name();
       break;
     }
+  }
+  for (size_t m = 0; m < results.size(); ++m) {
+    if (better[m].empty()) continue;
+    auto& detections = results[m].detections;
+    std::stable_partition(detections.begin(), detections.end(),
+                          [](const Detection& d) { return d.accepted; });
+    if (!detections.front().accepted)
+      results[m].reason = "what it would explain is explained better by " + better[m];
   }
 }
 

@@ -43,8 +43,8 @@ struct MatchResult {
 MatchResult match(const Scene& scene, const Model& model, const MatchOptions& options = {});
 
 /// After several models were looked for in one scene (results[i] belongs to models[i]): where two detections
-/// explain the same part of the image, only the one that explains more stays accepted. Changes `accepted` and
-/// `reason` only.
+/// explain the same part of the image, only the one that explains more stays accepted. Those that are not go
+/// behind those that are; `reason` is set where none is left.
 void resolve_conflicts(const Scene& scene, const std::vector<const Model*>& models,
                        std::vector<MatchResult>& results);
 

@@ -61,5 +61,24 @@ TEST(Conflicts, OfTwoModelsForOneThingTheOneThatExplainsMoreStays) {
   EXPECT_THAT(results[0].reason, testing::HasSubstr("bracket"));
 }
 
+TEST(Conflicts, WhatIsLeftComesFirstAndNeedsNoReason) {
+  const Scene scene = two_brackets();
+  std::vector<MatchResult> results(2, match(scene, bracket_model()));
+  ASSERT_TRUE(results[0].detections.at(0).accepted);
+  // The second answer claims the other bracket as well, after the one that the first answer has.
+  Detection other = results[0].detections[0];
+  const bool found_left = (other.camera_T_model * bracket_model().centre()).x() < 0;
+  other.camera_T_model = found_left ? placed(0.065, 2.0) : placed(-0.065, 0.3);
+  results[1].detections.push_back(other);
+  const Model same = train_model(bracket(), "same", fixtures::quick_training());
+  resolve_conflicts(scene, {&bracket_model(), &same}, results);
+  EXPECT_TRUE(results[0].detections[0].accepted);
+  ASSERT_EQ(results[1].detections.size(), 2u);
+  EXPECT_TRUE(results[1].detections[0].accepted);
+  EXPECT_TRUE(results[1].detections[0].camera_T_model.isApprox(other.camera_T_model));
+  EXPECT_FALSE(results[1].detections[1].accepted);
+  EXPECT_EQ(results[1].reason, "");
+}
+
 }  // namespace
 }  // namespace edgepose
