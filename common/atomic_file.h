@@ -15,7 +15,7 @@ namespace edgepose {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// Files that belong together: all of them appear, by commit(), or none.
+/// Files that belong together: none of them appears before commit(), which only renames.
 class FileGroup {
  public:
   FileGroup() = default;

@@ -99,7 +99,7 @@ void evaluate_image(const TestImage& image, const std::vector<const TrainedModel
   }
   // Only where absent objects are asked for, too, do models compete for the same part of the image.
   const auto conflicts_at = Clock::now();
-  if (options.all_models) resolve_conflicts(scene, models, results);
+  if (options.all_models) resolve_conflicts(scene, models, options.match, results);
   const double share = seconds_since(conflicts_at) / static_cast<double>(asked.size());
   for (size_t i = 0; i < rows.size(); ++i) {
     fill_in(results[i], rows[i]);

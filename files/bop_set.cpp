@@ -113,10 +113,14 @@ TestSet read_bop_set(const fs::path& folder) {
   TestSet set;
   set.name = folder_name(folder);
   set.objects = read_objects(folder / "models");
+  set.descriptions = {folder / "models" / "models_info.json"};
   std::set<int> known;
   for (const TestObject& object : set.objects) known.insert(object.id);
-  for (const auto& [scene_id, scene] : scene_folders(folder / "test"))
+  for (const auto& [scene_id, scene] : scene_folders(folder / "test")) {
     read_scene(scene, scene_id, known, set.images);
+    for (const char* file : {"scene_camera.json", "scene_gt.json", "scene_gt_info.json"})
+      set.descriptions.push_back(scene / file);
+  }
   return set;
 }
 

@@ -86,19 +86,23 @@ DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale)
 }
 
 void write_depth_png(const std::filesystem::path& path, const DepthImage& image, double depth_scale) {
-  check_scale(path.string(), depth_scale);
+  write_file_atomically(path, encode_depth_png(image, path.string(), depth_scale));
+}
+
+std::vector<std::byte> encode_depth_png(const DepthImage& image, const std::string& name,
+                                        double depth_scale) {
+  check_scale(name, depth_scale);
   if (image.width <= 0 || image.height <= 0 || image.depth.size() != size_t(image.width) * image.height)
-    throw InputError::at(path.string(), "a depth image to write",
+    throw InputError::at(name, "a depth image to write",
                          std::to_string(image.width) + " x " + std::to_string(image.height) +
                              " pixels with " + std::to_string(image.depth.size()) + " values");
   std::vector<uint8_t> pixels(2 * image.depth.size());
   for (size_t i = 0; i < image.depth.size(); ++i) {
-    const uint16_t units = quantised(image.depth[i], depth_scale, path.string());
+    const uint16_t units = quantised(image.depth[i], depth_scale, name);
     pixels[2 * i] = static_cast<uint8_t>(units >> 8);
     pixels[2 * i + 1] = static_cast<uint8_t>(units & 0xff);
   }
-  write_file_atomically(path, png::encode_grey16(pixels, static_cast<uint32_t>(image.width),
-                                                 static_cast<uint32_t>(image.height)));
+  return png::encode_grey16(pixels, static_cast<uint32_t>(image.width), static_cast<uint32_t>(image.height));
 }
 
 }  // namespace edgepose

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "matcher/types.h"
 
@@ -22,6 +23,9 @@ DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale)
 
 /// The same from memory; `name` stands in messages.
 DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& name, double depth_scale);
+
+/// A 16-bit PNG in memory, as write_depth_png() writes it; `name` stands in messages.
+std::vector<std::byte> encode_depth_png(const DepthImage& image, const std::string& name, double depth_scale);
 
 /// Writes a 16-bit PNG, rounded to the nearest unit of `depth_scale` metres, atomically. Throws InputError if
 /// a depth is negative, not finite or too far for 16 bits, or the image is empty.

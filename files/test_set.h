@@ -38,9 +38,10 @@ struct TestImage {
 };
 
 struct TestSet {
-  std::string name;                 ///< of the folder
-  std::vector<TestObject> objects;  ///< by rising id; every truth's object is among them
-  std::vector<TestImage> images;    ///< by rising scene, then image
+  std::string name;                                 ///< of the folder
+  std::vector<TestObject> objects;                  ///< by rising id; every truth's object is among them
+  std::vector<TestImage> images;                    ///< by rising scene, then image
+  std::vector<std::filesystem::path> descriptions;  ///< files that told of objects, cameras and truth
 };
 
 /// Reads a folder in the BOP format (files/bop_set.h) or in UWA's own layout (files/uwa_set.h), whichever it

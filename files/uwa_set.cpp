@@ -111,6 +111,7 @@ TestSet read_uwa_set(const fs::path& folder) {
   set.objects = number_objects(files);
   set.images = number_images(files);
   for (const UwaTruthFile& file : files) {
+    set.descriptions.push_back(file.truth);
     const auto object = std::find_if(set.objects.begin(), set.objects.end(),
                                      [&](const TestObject& o) { return o.mesh == file.model; });
     const auto image = std::find_if(set.images.begin(), set.images.end(),

@@ -20,7 +20,7 @@ bool reads(Read read) {
     read();
     return true;
   } catch (const InputError& error) {
-    for (const char c : std::string_view(error.what())) must_hold(c >= ' ');
+    for (const unsigned char c : std::string_view(error.what())) must_hold(c >= ' ');
     return false;
   }
 }

@@ -49,6 +49,24 @@ float best_rival(const std::vector<Candidate>& candidates, const std::vector<Pos
   return best;
 }
 
+/// Why the best guess is not accepted, in words.
+std::string rejection_reason(const Candidate& best, const MatchOptions& options) {
+  const auto percent = [](float share) { return std::to_string(std::lround(100 * share)) + " %"; };
+  const FreeSpaceEvidence& e = best.evidence;
+  std::string reason = "the best candidate has score " + std::to_string(best.confidence).substr(0, 4) +
+                       " of the " + std::to_string(options.accept_score).substr(0, 4) +
+                       " wanted: " + percent(e.coverage()) + " of the expected surface is there";
+  if (e.violation_share() > 0.03f) reason += ", the scene sees through " + percent(e.violation_share());
+  if (e.expected > 0 && e.occluded / e.expected > 0.3f)
+    reason += ", " + percent(e.occluded / e.expected) + " would be hidden";
+  if (e.expected > 0 && e.near / e.expected > 0.15f)
+    reason += ", " + percent(e.near / e.expected) + " lies beside the surface";
+  const float outline = e.outline_confirmed + e.outline_denied + e.outline_open;
+  if (outline > 0 && e.outline_denied / outline > 0.1f)
+    reason += ", " + percent(e.outline_denied / outline) + " of its outline is contradicted";
+  return reason;
+}
+
 }  // namespace
 
 std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::View& model,
@@ -76,15 +94,15 @@ float overlap(const std::vector<uint32_t>& cells, const std::vector<uint32_t>& o
   return static_cast<float>(common.size()) / static_cast<float>(cells.size());
 }
 
-std::vector<Detection> report_detections(const Scene::Data& scene, const Model& model,
-                                         const std::vector<Candidate>& ranked, const CandidateSearch& search,
-                                         const MatchOptions& options) {
+Report report_detections(const Scene::Data& scene, const Model& model, const std::vector<Candidate>& ranked,
+                         const CandidateSearch& search, const MatchOptions& options) {
   const Model::View& view = model.view();
   const float d = static_cast<float>(model.diameter());
   const SceneEdges edges(scene, 0.01f * d, d / 32);
   const PoseComparison comparison(model);
   const NearModel near_model(view, options.paper.edge_distance * d);
-  std::vector<Detection> detections;
+  Report report;
+  std::vector<Detection>& detections = report.detections;
   std::vector<PoseF> reported;
   std::vector<uint32_t> explained;
   for (const Candidate& found : ranked) {
@@ -93,6 +111,7 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
     const bool accepted =
         options.verification != Verification::kFreeSpace || c.confidence >= options.accept_score;
     if (!detections.empty() && (!accepted || options.verification != Verification::kFreeSpace)) continue;
+    if (!accepted) report.reason = rejection_reason(c, options);
     const auto cells = explained_cells(scene, view, c.pose, search.settings(c.pose).full);
     if (overlap(cells, explained) > kSameThing) continue;
     explained.insert(explained.end(), cells.begin(), cells.end());
@@ -114,27 +133,15 @@ std::vector<Detection> report_detections(const Scene::Data& scene, const Model& 
   }
   const float rival = best_rival(ranked, reported, comparison);
   for (Detection& detection : detections) detection.margin = detection.score - static_cast<double>(rival);
-  return detections;
-}
-
-std::string rejection_reason(const std::vector<Candidate>& ranked, const MatchOptions& options) {
-  if (ranked.empty()) return "no candidate pose: too few scene points where the object could be";
-  const Candidate& best = ranked.front();
-  if (options.verification != Verification::kFreeSpace || best.confidence >= options.accept_score) return "";
-  const auto percent = [](float share) { return std::to_string(std::lround(100 * share)) + " %"; };
-  const FreeSpaceEvidence& e = best.evidence;
-  std::string reason = "the best candidate has score " + std::to_string(best.confidence).substr(0, 4) +
-                       " of the " + std::to_string(options.accept_score).substr(0, 4) +
-                       " wanted: " + percent(e.coverage()) + " of the expected surface is there";
-  if (e.violation_share() > 0.03f) reason += ", the scene sees through " + percent(e.violation_share());
-  if (e.expected > 0 && e.occluded / e.expected > 0.3f)
-    reason += ", " + percent(e.occluded / e.expected) + " would be hidden";
-  if (e.expected > 0 && e.near / e.expected > 0.15f)
-    reason += ", " + percent(e.near / e.expected) + " lies beside the surface";
-  const float outline = e.outline_confirmed + e.outline_denied + e.outline_open;
-  if (outline > 0 && e.outline_denied / outline > 0.1f)
-    reason += ", " + percent(e.outline_denied / outline) + " of its outline is contradicted";
-  return reason;
+  // The candidates' order and their scores are different judgements: the first need not be an accepted one.
+  std::stable_partition(detections.begin(), detections.end(),
+                        [](const Detection& each) { return each.accepted; });
+  if (detections.empty()) {
+    report.reason = "no candidate pose: too few scene points where the object could be";
+  } else if (detections.front().accepted) {
+    report.reason.clear();
+  }
+  return report;
 }
 
 }  // namespace edgepose

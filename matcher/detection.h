@@ -10,13 +10,15 @@ std::vector<uint32_t> explained_cells(const Scene::Data& scene, const Model::Vie
 /// Share of `cells` that is also in `others`; both sorted.
 float overlap(const std::vector<uint32_t>& cells, const std::vector<uint32_t>& others);
 
-/// What is reported of the candidates: the best of each place, with covariance, margin and symmetric poses.
-/// At most options.max_instances; only the first may be one that is not accepted.
-std::vector<Detection> report_detections(const Scene::Data& scene, const Model& model,
-                                         const std::vector<Candidate>& ranked, const CandidateSearch& search,
-                                         const MatchOptions& options);
+/// What is reported of the candidates.
+struct Report {
+  std::vector<Detection> detections;  ///< accepted ones first; at most one that is not, the best guess
+  std::string reason;                 ///< why none is accepted, in words; empty if one is
+};
 
-/// Why the best candidate was not accepted, in words.
-std::string rejection_reason(const std::vector<Candidate>& ranked, const MatchOptions& options);
+/// Refines the best candidate of each place once more, and adds covariance, margin and symmetric poses. At
+/// most options.max_instances.
+Report report_detections(const Scene::Data& scene, const Model& model, const std::vector<Candidate>& ranked,
+                         const CandidateSearch& search, const MatchOptions& options);
 
 }  // namespace edgepose

@@ -118,14 +118,16 @@ MatchResult match(const Scene& scene_handle, const Model& model, const MatchOpti
           ? search.run(references, result)
           : choose_like_the_paper(scene, model, points, references, search, options, result);
   watch.lap();
-  result.detections = report_detections(scene, model, candidates, search, options);
-  result.reason = rejection_reason(candidates, options);
+  Report report = report_detections(scene, model, candidates, search, options);
+  result.detections = std::move(report.detections);
+  result.reason = std::move(report.reason);
   result.times.verification += watch.lap();
   return result;
 }
 
 void resolve_conflicts(const Scene& scene_handle, const std::vector<const Model*>& models,
-                       std::vector<MatchResult>& results) {
+                       const MatchOptions& options, std::vector<MatchResult>& results) {
+  if (options.verification != Verification::kFreeSpace || models.size() < 2) return;
   struct Claim {
     size_t model, detection;
     std::vector<uint32_t> cells;
@@ -133,9 +135,10 @@ void resolve_conflicts(const Scene& scene_handle, const std::vector<const Model*
   const Scene::Data& scene = scene_handle.data();
   std::vector<Claim> claims;
   for (size_t m = 0; m < results.size(); ++m) {
+    const auto accepted = [](const Detection& d) { return d.accepted; };
+    if (std::none_of(results[m].detections.begin(), results[m].detections.end(), accepted)) continue;
     const std::vector<OrientedPoint> none;
-    const MatchOptions defaults;
-    const CandidateSearch search(scene, *models[m], none, defaults);
+    const CandidateSearch search(scene, *models[m], none, options);
     for (size_t i = 0; i < results[m].detections.size(); ++i) {
       const Detection& detection = results[m].detections[i];
       if (!detection.accepted) continue;

@@ -44,8 +44,9 @@ MatchResult match(const Scene& scene, const Model& model, const MatchOptions& op
 
 /// After several models were looked for in one scene (results[i] belongs to models[i]): where two detections
 /// explain the same part of the image, only the one that explains more stays accepted. Those that are not go
-/// behind those that are; `reason` is set where none is left.
+/// behind those that are; `reason` is set where none is left. `options` as for match(); nothing happens in
+/// the paper's modes, which always answer with a pose.
 void resolve_conflicts(const Scene& scene, const std::vector<const Model*>& models,
-                       std::vector<MatchResult>& results);
+                       const MatchOptions& options, std::vector<MatchResult>& results);
 
 }  // namespace edgepose

@@ -48,11 +48,6 @@ struct Symmetries {
   bool is_sphere() const;  ///< any rotation at all: two axes that are not parallel
 };
 
-/// What training noticed about the mesh; `edgepose info` and `train` tell the user.
-struct ModelNotes {
-  uint64_t surface_points_hidden = 0;  ///< samples dropped because no view sees them
-};
-
 /// A trained model: one contiguous, position-independent block, either built by train_model() or a
 /// memory-mapped file (docs/model_file.md). Cheap to copy (shares the block); safe to read from any thread.
 class Model {

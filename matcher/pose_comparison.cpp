@@ -31,13 +31,13 @@ Eigen::Vector3d fixed_point(const Symmetries& symmetries, const Eigen::Vector3d&
 }  // namespace
 
 PoseComparison::PoseComparison(const Model& model)
-    : diameter_(static_cast<float>(model.diameter())), turns_{Eigen::Matrix3f::Identity()} {
+    : diameter_(static_cast<float>(model.diameter())),
+      turns_{Eigen::Matrix3f::Identity()},
+      any_turn_(model.symmetries().is_sphere()) {
   const Symmetries symmetries = model.symmetries();
   centre_ = fixed_point(symmetries, model.centre()).cast<float>();
   for (const RigidTransform& s : symmetries.discrete) turns_.emplace_back(s.linear().cast<float>());
   for (const SymmetryAxis& axis : symmetries.continuous) axes_.emplace_back(axis.direction.cast<float>());
-  // Two axes that cross make a sphere.
-  for (const Eigen::Vector3f& axis : axes_) any_turn_ |= axis.cross(axes_.front()).norm() > 0.5f;
 }
 
 bool PoseComparison::alike(const PoseF& a, const PoseF& b, float distance, float angle) const {

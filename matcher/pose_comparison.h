@@ -20,7 +20,7 @@ class PoseComparison {
   Eigen::Vector3f centre_;              // a point that no symmetry moves
   std::vector<Eigen::Matrix3f> turns_;  // of the discrete symmetries, the identity first
   std::vector<Eigen::Vector3f> axes_;   // of the continuous ones
-  bool any_turn_ = false;               // a sphere
+  bool any_turn_;                       // a sphere
 };
 
 }  // namespace edgepose

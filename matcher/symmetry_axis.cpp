@@ -94,8 +94,7 @@ Fold fold_about(const SelfMatch& self, const SymmetryAxis& axis) {
     const double part = 2 * kPi / parts;
     float on = 0, between = 0;
     bool matches = true;
-    int turns = 0;
-    for (int k = 1; k <= parts / 2 && matches; ++k, ++turns) {
+    for (int k = 1; k <= parts / 2 && matches; ++k) {
       const SelfMatch::Distance d = distance(k * part);
       matches = d.is_match();
       on += d.mean;

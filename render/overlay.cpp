@@ -271,7 +271,7 @@ RgbImage draw_overlay(const DepthImage& whole_image, const Camera& whole_camera,
   return canvas.picture();
 }
 
-void write_png(const std::filesystem::path& path, const RgbImage& image) {
+std::vector<std::byte> encode_png(const RgbImage& image) {
   const size_t expected = 3 * static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   if (image.width < 1 || image.height < 1 || image.rgb.size() != expected) {
     throw std::invalid_argument("picture: expected 3 * width * height values");
@@ -280,9 +280,13 @@ void write_png(const std::filesystem::path& path, const RgbImage& image) {
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   std::vector<uint8_t> png;
-  if (!cv::imencode(".png", bgr, png))
-    throw InputError(path.string() + ": the picture cannot be coded as PNG");
-  write_file_atomically(path, std::as_bytes(std::span(png)));
+  if (!cv::imencode(".png", bgr, png)) throw std::runtime_error("the picture cannot be coded as PNG");
+  const auto bytes = std::as_bytes(std::span(png));
+  return {bytes.begin(), bytes.end()};
+}
+
+void write_png(const std::filesystem::path& path, const RgbImage& image) {
+  write_file_atomically(path, encode_png(image));
 }
 
 }  // namespace edgepose

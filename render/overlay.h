@@ -58,6 +58,9 @@ void annotate_overlay(RgbImage& picture, const DepthImage& image, const Camera& 
 /// `scale` times; holes are black.
 RgbImage shade_depth(const DepthImage& image, const Camera& camera, int scale = 1);
 
+/// As a PNG in memory. Throws std::invalid_argument if the picture's sizes contradict each other.
+std::vector<std::byte> encode_png(const RgbImage& image);
+
 /// Writes a PNG aside and renames it. Throws InputError if the file cannot be written.
 void write_png(const std::filesystem::path& path, const RgbImage& image);
 

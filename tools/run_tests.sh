@@ -41,7 +41,7 @@ run_tests() { # build directory, tests that are left out (as --gtest_filter has 
         wait "${running[$shard]}" || { cat "$log.$shard.log"; exit 1; }
         echo "tests/$folder, $(basename "$program"): $(grep -E '^\[==========\].*ran' "$log.$shard.log")"
       done
-    done < <(ctest --test-dir "$dir/tests/$folder" -N -V -LE slow | grep -oE "$PWD/$dir/bin/[a-z_]+_test" | sort -u)
+    done < <(ctest --test-dir "$dir/tests/$folder" -N -V | grep -oE "$PWD/$dir/bin/[a-z_]+_test" | sort -u)
   done
 }
 # The program, instrumented for races, on the sample with more threads than cores.

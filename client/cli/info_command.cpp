@@ -56,7 +56,7 @@ void InfoCommand::show_mesh() const {
     json report = to_json(health);
     report["kind"] = health.is_cloud ? "cloud" : "mesh";
     report["file"] = file.string();
-    std::cout << report.dump(2) << '\n';
+    print_json(std::cout, report);
     return;
   }
   std::cout << formatted("%s: %s, %zu vertices, %zu triangles, diameter %.1f mm", file.c_str(),
@@ -98,7 +98,7 @@ void InfoCommand::show_model() const {
         {"expected_seconds_640x480",
          {{"preprocessing", time.preprocessing}, {"matching", time.matching}, {"total", time.total()}}},
         {"warnings", warnings}};
-    std::cout << report.dump(2) << '\n';
+    print_json(std::cout, report);
     return;
   }
   print_summary(std::cout, model);

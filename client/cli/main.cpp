@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -34,9 +33,8 @@ constexpr const char* kExamples = R"(Examples:
 Exit code: 0 found or done, 1 not found, 2 bad input (one line on stderr says what).)";
 
 /// One line for the person at the terminal, whatever the exception's text looks like.
-int report_bad_input(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << "edgepose: " << message << std::endl;
+int report_bad_input(const std::string& message) {
+  std::cerr << "edgepose: " << one_line(message) << std::endl;
   return kExitBadInput;
 }
 

@@ -103,7 +103,7 @@ void MatchCommand::run() const {
     answers.push_back(naming(model.file.string(), [&] { return match(scene, model.model, options.match); }));
     asked.push_back(&model.model);
   }
-  resolve_conflicts(scene, asked, answers);
+  resolve_conflicts(scene, asked, options.match, answers);
   std::vector<NamedResult> results;
   for (size_t i = 0; i < inputs.size(); ++i) {
     const Model& model = inputs[i].model;
@@ -142,7 +142,7 @@ void MatchCommand::print(const std::vector<NamedResult>& results, const std::opt
                  {"preprocessing_seconds", preprocessing_seconds},
                  {"models", models_found}};
   if (targets) report["plan"] = to_json(*targets, scene.frame);
-  std::cout << report.dump(2) << '\n';
+  print_json(std::cout, report);
 }
 
 }  // namespace

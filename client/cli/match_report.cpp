@@ -92,6 +92,10 @@ void print_certainty(std::ostream& out, const Detection& detection) {
 
 }  // namespace
 
+void print_json(std::ostream& out, const json& report) {
+  out << report.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
+}
+
 MatchResult in_frame(const RigidTransform& target_T_camera, MatchResult result) {
   Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
   turn.topLeftCorner<3, 3>() = target_T_camera.linear();

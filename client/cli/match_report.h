@@ -23,6 +23,9 @@ struct NamedResult {
 /// The same result seen from another frame: poses, equivalent poses and covariances.
 MatchResult in_frame(const RigidTransform& target_T_camera, MatchResult result);
 
+/// Prints it, indented, with a line end. What is no UTF-8, in the name of a file say, becomes U+FFFD.
+void print_json(std::ostream& out, const nlohmann::json& report);
+
 /// Everything that is known, SI units; docs/match_json.md lists the fields.
 nlohmann::json to_json(const NamedResult& found, const std::string& frame);
 

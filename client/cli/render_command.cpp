@@ -137,9 +137,10 @@ void RenderCommand::run(bool image_given) const {
                          "check poses (mm, degrees), --unit and --camera");
   }
 
-  write_depth_png(output, depth, unit_mm / 1000);
-  write_file_atomically(beside(output, "_camera.json"), camera_text(file.camera, width, height, unit_mm));
-  write_file_atomically(beside(output, "_truth.json"), scene_file_text(placed, output.parent_path()));
+  FileGroup files;  // one is worth nothing without the others
+  files.add(output, encode_depth_png(depth, output.string(), unit_mm / 1000));
+  files.add(beside(output, "_camera.json"), camera_text(file.camera, width, height, unit_mm));
+  files.add(beside(output, "_truth.json"), scene_file_text(placed, output.parent_path()));
   if (!overlay.empty()) {
     std::vector<OverlayPose> poses_drawn;
     poses_drawn.reserve(placed.size());
@@ -149,8 +150,9 @@ void RenderCommand::run(bool image_given) const {
     }
     OverlayOptions options;
     options.threads = threads;
-    write_png(overlay, draw_overlay(depth, file.camera, poses_drawn, options));
+    files.add(overlay, encode_png(draw_overlay(depth, file.camera, poses_drawn, options)));
   }
+  files.commit();
   std::cout << output.string() << ": " << width << "x" << height << ", " << placed.size()
             << (placed.size() == 1 ? " object, " : " objects, ") << measured << " pixels measured (" << sensor
             << ", seed " << seed << ", " << unit_mm << " mm per unit)\n";

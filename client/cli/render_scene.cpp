@@ -52,8 +52,13 @@ RigidTransform parse_pose(const std::string& text) {
 }
 
 std::vector<PlacedMesh> read_scene_file(const std::filesystem::path& path, std::optional<int> image) {
-  const nlohmann::json json = parse_json(read_whole_file(path, "a scene file", kMaxJsonBytes), path.string());
-  const JsonNode root(json, path.string());
+  return parse_scene_file(read_whole_file(path, "a scene file", kMaxJsonBytes), path, image);
+}
+
+std::vector<PlacedMesh> parse_scene_file(std::string_view text, const std::filesystem::path& file,
+                                         std::optional<int> image) {
+  const nlohmann::json json = parse_json(text, file.string());
+  const JsonNode root(json, file.string());
   const std::vector<std::string> images = root.keys();
   if (images.empty()) root.fail("an image with its objects");
   if (!image && images.size() > 1) {
@@ -62,7 +67,7 @@ std::vector<PlacedMesh> read_scene_file(const std::filesystem::path& path, std::
   std::vector<PlacedMesh> objects;
   for (const JsonNode& node : root.at(image ? std::to_string(*image) : images.front()).items()) {
     if (objects.size() == kMaxObjects) root.fail("at most " + std::to_string(kMaxObjects) + " objects");
-    objects.push_back(parse_object(node, path.parent_path()));
+    objects.push_back(parse_object(node, file.parent_path()));
   }
   if (objects.empty()) root.fail("at least one object");
   return objects;

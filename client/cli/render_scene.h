@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/mesh_file.h"
@@ -24,6 +25,10 @@ RigidTransform parse_pose(const std::string& text);
 /// PATH}, ...]}; the paths are relative to the file. `image` may be left out if there is one only. Throws
 /// InputError.
 std::vector<PlacedMesh> read_scene_file(const std::filesystem::path& path, std::optional<int> image);
+
+/// The same from memory; `file` stands in messages, and its folder before the paths.
+std::vector<PlacedMesh> parse_scene_file(std::string_view text, const std::filesystem::path& file,
+                                         std::optional<int> image);
 
 /// The same as text, with the meshes relative to `folder`.
 std::string scene_file_text(const std::vector<PlacedMesh>& objects, const std::filesystem::path& folder);

@@ -36,7 +36,8 @@ EvalOptions SetInput::options() const {
 }
 
 std::vector<std::filesystem::path> SetInput::files(const TestSet& set) const {
-  std::vector<std::filesystem::path> list = {config};
+  std::vector<std::filesystem::path> list = set.descriptions;
+  list.push_back(config);
   for (const TestObject& object : set.objects) list.push_back(object.mesh);
   for (const TestImage& image : set.images) list.push_back(image.cloud.empty() ? image.depth : image.cloud);
   return list;

@@ -8,9 +8,12 @@
 
 #include "client/cli/nearest_word.h"
 #include "common/error.h"
+#include "files/whole_file.h"
 
 namespace edgepose {
 namespace {
+
+constexpr size_t kMaxSettingsBytes = 1 << 20;
 
 const std::vector<std::pair<std::string, Verification>> kVerifications = {
     {"free_space", Verification::kFreeSpace},
@@ -192,20 +195,24 @@ std::string to_toml(const SettingKey& key) {
 }
 
 Settings read_settings(const std::filesystem::path& path) {
-  Settings settings;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw InputError::at(path.string(), "a TOML file", "no such file");
-  }
+  const bool is_empty =
+      std::filesystem::is_regular_file(path, ignored) && std::filesystem::is_empty(path, ignored);
+  if (is_empty) return {};  // every key is optional
+  return parse_settings(read_whole_file(path, "a TOML file", kMaxSettingsBytes), path);
+}
+
+Settings parse_settings(std::string_view text, const std::filesystem::path& file) {
+  Settings settings;
   toml::table table;
   try {
-    table = toml::parse_file(path.string());
+    table = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw InputError::at(where(path, error.source()), "TOML", std::string(error.description()));
+    throw InputError::at(where(file, error.source()), "TOML", std::string(error.description()));
   }
-  apply(table, "", path, setting_keys(settings));
+  apply(table, "", file, setting_keys(settings));
   for (const std::string& fault : {settings.train.check(), settings.scene.check(), settings.match.check()}) {
-    if (!fault.empty()) throw InputError(path.string() + ": " + fault);
+    if (!fault.empty()) throw InputError(file.string() + ": " + fault);
   }
   return settings;
 }

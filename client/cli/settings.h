@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -34,5 +35,8 @@ std::string to_toml(const SettingKey& key);
 /// Throws InputError that names the file, the line and the key: syntax, wrong type, out of range, unknown key
 /// (with the nearest known one).
 Settings read_settings(const std::filesystem::path& path);
+
+/// The same from memory; `file` stands in messages.
+Settings parse_settings(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace edgepose

@@ -59,8 +59,10 @@ TEST(BadScene, WarningsNameTheFileOnce) {
       "height: 576\nwidth: 640\nD: [0.1, 0, 0, 0, 0]\nK: [504, 0, 319.5, 0, 504, 287.5, 0, 0, 1]\n");
   const Finished run = match_depth(phantom_file("scene/depth.png"), yaml);
   EXPECT_THAT(run.err, testing::HasSubstr("w.yaml: warning: lens distortion"));
+  EXPECT_EQ(run.err.find("lens distortion"), run.err.rfind("lens distortion")) << run.err;
   const Finished cut = match_depth(phantom_file("scene/depth.png"), "504,504,-20,287.5");
   EXPECT_THAT(cut.err, testing::HasSubstr("warning: the principal point (-20, 287.5)"));
+  EXPECT_EQ(cut.err.find("principal point"), cut.err.rfind("principal point")) << cut.err;
 }
 
 TEST(BadScene, CameraThatIsNone) {

@@ -28,12 +28,42 @@ TEST(Output, IsNeverTheInput) {
   for (const char* name : {"bracket.ply", "link"}) {
     expect_refused(edgepose({"train", mesh, "-o", folder / name}), {name, "the same file as", "bracket.ply"});
     expect_refused(edgepose({"render", "--mesh", mesh, "--pose", "0 0 400 0 0 0", "-o", folder / name}),
-                   {name});
+                   {name, "the same file as"});
     expect_refused(edgepose({"match", mesh, "--depth", phantom_file("scene/depth.png"), "--intrinsics",
                              phantom_file("scene/camera.json"), "--overlay", folder / name}),
                    {name, "the same file as"});
   }
   EXPECT_EQ(read_file(mesh), bracket_ply(100));
+}
+
+TEST(Output, IsNeverATestSetsOwnFile) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "models");
+  std::filesystem::create_directories(folder / "test/000001/depth");
+  folder.write("models/obj_000001.ply", bracket_ply(100));
+  folder.write("models/models_info.json", R"({"1": {"diameter": 100}})");
+  const std::string scene = folder / "test/000001/";
+  folder.write("test/000001/scene_camera.json",
+               R"({"0": {"cam_K": [600, 0, 320, 0, 600, 240, 0, 0, 1], "depth_scale": 0.1}})");
+  folder.write(
+      "test/000001/scene_gt.json",
+      R"({"0": [{"obj_id": 1, "cam_R_m2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [0, 0, 400]}]})");
+  std::filesystem::copy(phantom_file("scene/depth.png"), scene + "depth/000000.png");
+  for (const std::string& file :
+       {scene + "scene_gt.json", scene + "scene_camera.json", scene + "depth/000000.png",
+        folder / "models/models_info.json", folder / "models/obj_000001.ply"}) {
+    const std::string before = read_file(file);
+    expect_refused(edgepose({"eval", folder / "", "--results", file}), {"the same file as"});
+    EXPECT_EQ(read_file(file), before) << file;
+  }
+}
+
+TEST(Output, JsonTakesNamesThatAreNoUtf8) {
+  const Folder folder;
+  const std::string mesh = folder.write("t\xff.ply", bracket_ply(100));
+  const Finished run = edgepose({"info", mesh, "--json"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("t\xef\xbf\xbd.ply"));
 }
 
 TEST(Output, NeedsAName) {

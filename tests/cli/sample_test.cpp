@@ -48,6 +48,14 @@ void expect_near(const RigidTransform& found, const RigidTransform& truth) {
   EXPECT_LT(Eigen::AngleAxisd(found.linear().transpose() * truth.linear()).angle(), 0.03);
 }
 
+TEST(Sample, PaperModeAnswersWithAPoseAndItsEdgeScore) {
+  const Finished run = edgepose(with_depth({"--paper-mode", "--json"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const json detections = json::parse(run.out).at("models").at(0).at("detections");
+  ASSERT_EQ(detections.size(), 1u);
+  EXPECT_GT(detections.at(0).at("edge_score").get<double>(), 0.1);
+}
+
 TEST(Sample, JsonHoldsTheTruePoseAndAllThatTheIssueAsksFor) {
   const Finished run = edgepose(with_depth({"--json", "--plan", phantom_file("drill_plan.json")}));
   ASSERT_EQ(run.code, 0) << run.err;

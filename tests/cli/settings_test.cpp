@@ -11,6 +11,7 @@
 
 #include "client/cli/nearest_word.h"
 #include "client/cli/set_input.h"
+#include "common/error.h"
 
 namespace edgepose::test {
 namespace {
@@ -31,6 +32,23 @@ std::filesystem::path temporary(const std::string& text) {
       std::filesystem::path(testing::TempDir()) / "edgepose_settings_test.toml";
   std::ofstream(path) << text;
   return path;
+}
+
+TEST(Settings, WhatIsShownOfAFileDoesNothingToTheTerminal) {
+  try {
+    parse_settings("\"a\\u001b[31mb\\rc\" = 1", "x.toml");
+    FAIL() << "an unknown key";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_THAT(message, testing::HasSubstr("[31mb"));
+    EXPECT_TRUE(std::all_of(message.begin(), message.end(), [](unsigned char c) { return c >= ' '; }))
+        << testing::PrintToString(message);
+  }
+}
+
+TEST(Settings, AnEmptyFileChangesNothing) {
+  const Settings settings = read_settings(temporary(""));
+  EXPECT_EQ(settings.match.accept_score, MatchOptions().accept_score);
 }
 
 TEST(Settings, TheSampleNamesEveryKeyWithItsDefault) {

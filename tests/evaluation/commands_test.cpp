@@ -50,6 +50,36 @@ TEST_F(Commands, EvalWritesOneRowForEachListedObject) {
   EXPECT_EQ(read_bop_results(results).size(), 3u);
 }
 
+TEST_F(Commands, EvalOfAllModelsWritesWhatIsThere) {
+  const auto results = rendered.folder / "out.csv";
+  const Outcome outcome = run("eval " + set + " --all-models --results '" + results.string() + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("0 of 1 (0.00 %)"), std::string::npos) << outcome.text;
+  const auto rows = read_bop_results(results);
+  EXPECT_EQ(rows.size(), 3u);
+  for (const BopResult& row : rows) EXPECT_FALSE(row.image_id == 1 && row.object_id == 2);
+}
+
+TEST_F(Commands, EvalOfAllModelsGivesOneNameToOneThing) {
+  // A third object that looks like the first: both cannot be what is seen.
+  const auto models = rendered.folder / "models";
+  std::filesystem::copy(models / "obj_000001.ply", models / "obj_000003.ply");
+  std::ofstream(models / "models_info.json")
+      << R"({"1": {"diameter": 200}, "2": {"diameter": 210}, "3": {"diameter": 200}})";
+  const auto results = rendered.folder / "out.csv";
+  const Outcome outcome =
+      run("eval " + set + " --all-models --images 1 --results '" + results.string() + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(read_bop_results(results).size(), 1u);
+}
+
+TEST_F(Commands, EvalInPaperModeAlwaysAnswers) {
+  const auto results = rendered.folder / "out.csv";
+  const Outcome outcome = run("eval " + set + " --paper-mode --results '" + results.string() + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(read_bop_results(results).size(), 3u);
+}
+
 TEST_F(Commands, EvalTakesAPartOfTheSet) {
   const auto results = rendered.folder / "out.csv";
   const Outcome outcome =

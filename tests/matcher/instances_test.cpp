@@ -55,10 +55,38 @@ TEST(Conflicts, OfTwoModelsForOneThingTheOneThatExplainsMoreStays) {
   ASSERT_TRUE(results[1].detections.at(0).accepted);
   // Where the shorter one was found does not matter here, only that it claims the same surface.
   results[0].detections[0] = results[1].detections[0];
-  resolve_conflicts(scene, {&shorter, &bracket_model()}, results);
+  resolve_conflicts(scene, {&shorter, &bracket_model()}, {}, results);
   EXPECT_TRUE(results[1].detections[0].accepted);
   EXPECT_FALSE(results[0].detections[0].accepted);
   EXPECT_THAT(results[0].reason, testing::HasSubstr("bracket"));
+}
+
+TEST(Instances, AnAcceptedOneComesFirstAndAReasonIsGivenOnlyIfThereIsNone) {
+  // Thresholds just below and above each score that is reported, where the verdict before and after the last
+  // refinement may differ.
+  const Scene scene = two_brackets();
+  MatchOptions options;
+  options.max_instances = 5;
+  options.accept_score = 0.01f;
+  for (const Detection& d : match(scene, bracket_model(), options).detections)
+    for (const double above : {-1e-3, 1e-3}) {
+      options.accept_score = std::clamp(static_cast<float>(d.score + above), 0.f, 1.f);
+      const MatchResult result = match(scene, bracket_model(), options);
+      ASSERT_FALSE(result.detections.empty());
+      const auto accepted = [](const Detection& each) { return each.accepted; };
+      EXPECT_TRUE(std::is_partitioned(result.detections.begin(), result.detections.end(), accepted));
+      EXPECT_EQ(result.reason.empty(), result.detections[0].accepted) << options.accept_score;
+    }
+}
+
+TEST(Conflicts, ThePapersModesAlwaysAnswer) {
+  const Scene scene = two_brackets();
+  MatchOptions options;
+  options.verification = Verification::kPaper;
+  std::vector<MatchResult> results(2, match(scene, bracket_model(), options));
+  resolve_conflicts(scene, {&bracket_model(), &bracket_model()}, options, results);
+  EXPECT_TRUE(results[0].detections.at(0).accepted);
+  EXPECT_TRUE(results[1].detections.at(0).accepted);
 }
 
 TEST(Conflicts, WhatIsLeftComesFirstAndNeedsNoReason) {
@@ -71,7 +99,7 @@ TEST(Conflicts, WhatIsLeftComesFirstAndNeedsNoReason) {
   other.camera_T_model = found_left ? placed(0.065, 2.0) : placed(-0.065, 0.3);
   results[1].detections.push_back(other);
   const Model same = train_model(bracket(), "same", fixtures::quick_training());
-  resolve_conflicts(scene, {&bracket_model(), &same}, results);
+  resolve_conflicts(scene, {&bracket_model(), &same}, {}, results);
   EXPECT_TRUE(results[0].detections[0].accepted);
   ASSERT_EQ(results[1].detections.size(), 2u);
   EXPECT_TRUE(results[1].detections[0].accepted);
