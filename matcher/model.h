@@ -80,7 +80,8 @@ using Progress = std::function<void(double)>;
 
 /// Trains a model (paper Sec. 4.2, Fig. 2 a-e). `mesh` in metres; normals are computed where it has none.
 /// `declared` symmetries (BOP models_info.json) are taken as they are: where there are any, none are searched
-/// for. Throws std::invalid_argument if the options are unsound or the mesh has no usable surface.
+/// for. Of `name`, 255 bytes are kept; control characters become spaces. Throws std::invalid_argument if the
+/// options are unsound or the mesh has no usable surface.
 Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions& options = {},
                   const Symmetries& declared = {}, const Progress& progress = {});
 

@@ -115,6 +115,10 @@ void check_contents(const Model::View& v) {
   if (v.discrete.size() % 16 != 0 || v.continuous.size() % 6 != 0)
     refuse("whole symmetries", "a part of one");
   check_symmetries(v);
+  // It goes to terminals and logs.
+  const bool printable = std::none_of(v.name.begin(), v.name.end(), is_control);
+  if (v.name.size() > kMaxModelName || !printable)
+    refuse("a name of at most 255 bytes without control characters", "another");
 }
 
 }  // namespace

@@ -39,6 +39,10 @@ enum class Section : uint32_t {
   kCount
 };
 
+/// Bytes of a model's name.
+inline constexpr size_t kMaxModelName = 255;
+inline bool is_control(unsigned char c) { return c < ' ' || c == 0x7f; }
+
 /// Starts the block.
 struct ModelHeader {
   std::array<char, 8> magic;

@@ -138,7 +138,8 @@ Model train_model(const Mesh& mesh, const std::string& name, const TrainOptions&
   report(0.4);
 
   ModelParts parts;
-  parts.name = name;
+  parts.name = name.substr(0, kMaxModelName);
+  std::replace_if(parts.name.begin(), parts.name.end(), is_control, ' ');
   parts.view_directions = directions;
   const auto coarse =
       thin_out(surface, {4 * options.sampling_step * diameter, options.sampling_step * diameter});

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs clang-tidy (.clang-tidy; every finding is an error) over the project's own sources, two units at a time.
-# Usage: tools/check_tidy.sh [--apart] [FOLDER...]     folders: common matcher files render evaluation client (all)
+# Usage: tools/check_tidy.sh [--apart] [FOLDER...]     folders: common matcher messaging files render evaluation client (all)
 #   --apart  each file for itself, as it is compiled; three times as long
 # Without it up to ten files of a folder are read as one unit: the Eigen and standard headers, which take nearly all
 # the time, are then gone through once for the ten. The checks are the same.
@@ -11,13 +11,14 @@ if [ "${1:-}" = --apart ]; then
   joined=OFF
   shift
 fi
-folders=("${@:-common matcher files render evaluation client}")
+folders=("${@:-common matcher messaging files render evaluation client}")
 read -ra folders <<<"${folders[*]}"
 
-# Only for the compile commands: nothing is built here.
+# Only for the compile commands: nothing is built here but the headers that are made.
 build=build/tidy
 cmake --preset release -B "$build" -DEDGEPOSE_TESTS=OFF -DCMAKE_UNITY_BUILD=$joined \
   -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 >/dev/null
+cmake --build "$build" --target edgepose_lcm_types -- --quiet
 sources=("${folders[@]}")
 if [ "$joined" = ON ]; then sources=("${folders[@]/#/$build/}"); fi
 # The longest first, so that the two end together.

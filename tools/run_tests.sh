@@ -23,25 +23,24 @@ build() { # preset, targets...
   cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
 }
-# Runs the test programs of some folders (all: "."), each as two processes, so that what its tests share is made but
-# twice; quietly unless one fails.
-run_tests() { # build directory, tests that are left out (as --gtest_filter has them), folders...
-  local dir=$1 without=$2 folder program log shard
+# Runs test programs, each as two processes, so that what its tests share is made but twice; quietly unless one fails.
+run_tests() { # build directory, tests that are left out (as --gtest_filter has them), programs (none: all)...
+  local dir=$1 without=$2 program log shard running
   shift 2
-  for folder in "$@"; do
-    while read -r program; do
-      log=$dir/$(basename "$program")
-      local running=()
-      for shard in 0 1; do
-        GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$shard "$program" --gtest_brief=1 --gtest_filter="-$without" \
-          >"$log.$shard.log" 2>&1 &
-        running+=($!)
-      done
-      for shard in 0 1; do
-        wait "${running[$shard]}" || { cat "$log.$shard.log"; exit 1; }
-        echo "tests/$folder, $(basename "$program"): $(grep -E '^\[==========\].*ran' "$log.$shard.log")"
-      done
-    done < <(ctest --test-dir "$dir/tests/$folder" -N -V | grep -oE "$PWD/$dir/bin/[a-z_]+_test" | sort -u)
+  local programs=("$@")
+  [ $# -gt 0 ] || mapfile -t programs < <(basename -a "$dir"/bin/*_test)
+  for program in "${programs[@]}"; do
+    log=$dir/$program
+    running=()
+    for shard in 0 1; do
+      GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$shard "$dir/bin/$program" --gtest_brief=1 --gtest_filter="-$without" \
+        >"$log.$shard.log" 2>&1 &
+      running+=($!)
+    done
+    for shard in 0 1; do
+      wait "${running[$shard]}" || { cat "$log.$shard.log"; exit 1; }
+      echo "$program: $(grep -E '^\[==========\].*ran' "$log.$shard.log")"
+    done
   done
 }
 # The program, instrumented for races, on the sample with more threads than cores.
@@ -71,28 +70,28 @@ if [ "$mode" != --quick ]; then
   if [ "$mode" = --long ]; then
     bash tools/check_tidy.sh --apart
   else
-    bash tools/check_tidy.sh common matcher files
+    bash tools/check_tidy.sh matcher messaging
   fi
 
   step "address and undefined-behaviour sanitizers"
   if [ "$mode" = --long ]; then
     build asan
-    run_tests build/asan "" .
+    run_tests build/asan ""
   else
-    build asan tests/matcher/all tests/files/all
+    build asan matcher_test tests/messaging/all tests/files/all
     # Without those that repeat the same code for many shapes or seeds.
-    run_tests build/asan "SymmetriesOfSolids.*:Covariance.*" matcher files
+    run_tests build/asan "SymmetriesOfSolids.*:Covariance.*:TrainModel.Refuses*" \
+      matcher_test messaging_test meshes_test sets_test
   fi
 
   step "thread sanitizer"
-  build tsan tests/matcher/all
   if [ "$mode" = --long ]; then
-    run_tests build/tsan "" matcher
-    build tsan edgepose
+    build tsan tests/matcher/all tests/messaging/all edgepose
+    run_tests build/tsan "" matcher_test threads_test messaging_test
     run_threaded_sample build/tsan
   else
-    # The tests that train, sample and match with several threads; the others would have nothing to race with.
-    build/tsan/bin/matcher_test --gtest_filter='*Thread*' --gtest_brief=1
+    build tsan threads_test
+    build/tsan/bin/threads_test --gtest_brief=1
   fi
 fi
 

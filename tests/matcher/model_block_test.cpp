@@ -66,6 +66,12 @@ TEST(TrainModel, SameBlockAtAnyThreadCount) {
   EXPECT_EQ(std::memcmp(one.block().data(), three.block().data(), one.block().size()), 0);
 }
 
+TEST(TrainModel, NamesCanBePrinted) {
+  const Model model =
+      train_model(fixtures::bracket(), "a\x1b[31m\nb" + std::string(300, 'c'), fixtures::quick_training());
+  EXPECT_EQ(model.name(), "a [31m b" + std::string(247, 'c'));
+}
+
 TEST(TrainModel, RefusesAMeshWithoutSurface) {
   EXPECT_THROW(train_model({}, "empty"), std::invalid_argument);
 }
@@ -151,6 +157,8 @@ TEST(FromBlock, RefusesSignedNonsense) {
   EXPECT_TRUE(refuses(start(Section::kEntries), PairEntry{65535, 0}));
   EXPECT_TRUE(refuses(start(Section::kOffsets) + 4, uint32_t{0xffffffff}));
   EXPECT_TRUE(refuses(start(Section::kContourOffsets) + 4, uint32_t{0xffffffff}));
+  EXPECT_TRUE(refuses(start(Section::kName) + 2, '\0')) << "it is printed";
+  EXPECT_TRUE(refuses(start(Section::kName), '\x1b'));
   EXPECT_TRUE(refuses(offsetof(ModelHeader, diameter), -1.0));
   EXPECT_TRUE(refuses(offsetof(ModelHeader, angle_bins), uint32_t{0}));
   for (size_t s = 0; s < header.sections.size(); ++s) {
