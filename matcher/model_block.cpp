@@ -79,7 +79,8 @@ void check_symmetries(const Model::View& v) {
   for (size_t i = 0; i < v.discrete.size(); i += 16) {
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> m(v.discrete.data() + i);
     const Eigen::Matrix3d r = m.topLeftCorner<3, 3>();
-    if (!(m.rightCols<1>().cwiseAbs().maxCoeff() <= 1e4) || !r.allFinite() || !r.isUnitary(1e-3) ||
+    // Whether the largest of several is NaN when one of them is, Eigen leaves open.
+    if (!m.allFinite() || !(m.rightCols<1>().cwiseAbs().maxCoeff() <= 1e4) || !r.isUnitary(1e-3) ||
         !(r.determinant() > 0) || m.row(3) != Eigen::RowVector4d::UnitW())
       refuse("rigid motions as symmetries", "others");
   }

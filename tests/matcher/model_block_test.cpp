@@ -35,6 +35,25 @@ ModelHeader header_of(const Bytes& bytes) {
   return header;
 }
 
+/// What a model is made of, to be made again with changes.
+ModelParts parts_of(const Model& model) {
+  const Model::View& view = model.view();
+  ModelParts parts;
+  const auto copy = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
+  parts.header = *view.header;
+  copy(view.points, parts.points);
+  copy(view.dense_points, parts.dense_points);
+  copy(view.support_normals, parts.support_normals);
+  copy(view.offsets, parts.offsets);
+  copy(view.entries, parts.entries);
+  copy(view.view_directions, parts.view_directions);
+  copy(view.visible, parts.visible);
+  copy(view.contour_offsets, parts.contour_offsets);
+  copy(view.contours, parts.contours);
+  parts.name = view.name;
+  return parts;
+}
+
 /// Writes the checksum that docs/model_file.md asks for: an attacker can do that too.
 void sign(Bytes& bytes) {
   uint64_t hash = 0xcbf29ce484222325;
@@ -139,6 +158,26 @@ TEST(FromBlock, RefusesOtherVersionsAndFiles) {
   bytes = good_block();
   bytes[0] = std::byte{'E'};
   EXPECT_THAT(refusal(bytes), testing::HasSubstr("magic"));
+}
+
+TEST(FromBlock, RefusesASymmetryThatIsNoRigidMotion) {
+  ModelParts parts = parts_of(bracket_model());
+  const std::vector<double> half_turn = {-1, 0, 0, 0.08, 0, -1, 0, 0.05, 0, 0, 1, 0, 0, 0, 0, 1};
+  parts.discrete = half_turn;
+  EXPECT_NO_THROW(make_model(parts));
+  for (size_t i = 0; i < half_turn.size(); ++i)
+    for (const double nonsense : {std::nan(""), std::numeric_limits<double>::infinity(), 1e5}) {
+      parts.discrete = half_turn;
+      parts.discrete[i] = nonsense;
+      EXPECT_THROW(make_model(parts), std::invalid_argument) << i << " = " << nonsense;
+    }
+  parts.discrete.clear();
+  for (size_t i = 0; i < 6; ++i)
+    for (const double nonsense : {std::nan(""), std::numeric_limits<double>::infinity(), 1e5}) {
+      parts.continuous = {0, 0, 0, 0, 0, 1};
+      parts.continuous[i] = nonsense;
+      EXPECT_THROW(make_model(parts), std::invalid_argument) << i << " = " << nonsense;
+    }
 }
 
 TEST(FromBlock, RefusesSignedNonsense) {
