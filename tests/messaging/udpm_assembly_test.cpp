@@ -91,12 +91,12 @@ TEST(UdpmAssembly, FragmentsThatContradictEachOtherAreRefused) {
 
 TEST(UdpmAssembly, MemoryStaysBoundedWhateverIsAnnounced) {
   AssemblyOptions options;
-  options.max_bytes = 100 << 20;
-  options.max_message_bytes = 40 << 20;
+  options.max_bytes = 1 << 20;
+  options.max_message_bytes = 400 << 10;
   UdpmAssembly assembly(options);
   std::mt19937_64 random(1);
-  for (int i = 0; i < 20000; ++i) {
-    const auto size = static_cast<uint32_t>(10 + random() % (60u << 20));
+  for (int i = 0; i < 5000; ++i) {
+    const auto size = static_cast<uint32_t>(10 + random() % (600u << 10));
     add(assembly, random() % 500, fragment({static_cast<uint32_t>(random()), size, 5, 1, 7}, bytes_of("x")));
     ASSERT_LE(assembly.bytes(), options.max_bytes);
     ASSERT_LE(assembly.unfinished(), options.max_unfinished);
@@ -106,10 +106,13 @@ TEST(UdpmAssembly, MemoryStaysBoundedWhateverIsAnnounced) {
 }
 
 TEST(UdpmAssembly, AFloodOfOneSenderDoesNotCostAnotherItsMessage) {
-  UdpmAssembly assembly;
+  AssemblyOptions options;
+  options.max_bytes = 1 << 20;
+  options.max_message_bytes = 400 << 10;
+  UdpmAssembly assembly(options);
   const auto good = fragments(1, "C", bytes_of("01234567"), 4);
   EXPECT_FALSE(add(assembly, 1, good[0]));
-  for (uint32_t i = 0; i < 1000; ++i) add(assembly, 2, fragment({i, 60 << 20, 5, 1, 7}, bytes_of("x")));
+  for (uint32_t i = 0; i < 1000; ++i) add(assembly, 2, fragment({i, 400 << 10, 5, 1, 7}, bytes_of("x")));
   EXPECT_TRUE(add(assembly, 1, good[1]));
 }
 
