@@ -5,11 +5,9 @@ foreach(reader camera bop_set bop_results drill_plan model_file)
   edgepose_fuzzer(${reader}_fuzz edgepose_files)
 endforeach()
 
-# The program's own two, from its sources: without what else the program links.
+# The program's own, from its sources: without what else the program links.
 set(CLI ${PROJECT_SOURCE_DIR}/client/cli)
 find_package(nlohmann_json REQUIRED)
-find_package(tomlplusplus REQUIRED)
-edgepose_fuzzer(settings_fuzz edgepose_files tomlplusplus::tomlplusplus)
-target_sources(settings_fuzz PRIVATE ${CLI}/settings.cpp ${CLI}/nearest_word.cpp)
+edgepose_fuzzer(settings_fuzz edgepose_settings)
 edgepose_fuzzer(scene_file_fuzz edgepose_files nlohmann_json::nlohmann_json)
 target_sources(scene_file_fuzz PRIVATE ${CLI}/render_scene.cpp)

@@ -1,4 +1,4 @@
-#include "client/cli/settings.h"
+#include "settings/matcher_settings.h"
 
 #include "fuzz/input_check.h"
 

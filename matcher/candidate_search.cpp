@@ -81,6 +81,8 @@ CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model,
 
 std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references,
                                             MatchResult& result) const {
+  Stopwatch watch;
+  double seconds = 0;
   std::vector<Candidate> candidates;
   const auto size = static_cast<size_t>(options_.search.batch);
   for (size_t begin = 0; begin < references.size(); begin += size) {
@@ -91,14 +93,20 @@ std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& referen
     if (options_.max_instances == 1 && !candidates.empty() &&
         beyond_doubt(candidates.front(), options_.search))
       break;
+    seconds += watch.lap();
+    if (options_.max_seconds > 0 && seconds >= options_.max_seconds && end < references.size()) {
+      result.cut_short = true;
+      break;
+    }
   }
   return candidates;
 }
 
-Candidate CandidateSearch::finish(const PoseF& pose, float votes) const {
+Candidate CandidateSearch::finish(const PoseF& pose, float votes, int sightings) const {
   std::vector<Candidate> one(1);
   one[0].pose = pose;
   one[0].votes = votes;
+  one[0].sightings = sightings;
   refine(one, &VerificationSettings::coarse_icp, &VerificationSettings::middle);
   refine(one, &VerificationSettings::fine_icp, &VerificationSettings::full);
   return one[0];

@@ -41,7 +41,7 @@ class CandidateSearch {
   std::vector<Candidate> run(const std::vector<uint32_t>& references, MatchResult& result) const;
 
   /// Refines one pose coarsely and finely, and looks at it in full.
-  Candidate finish(const PoseF& pose, float votes) const;
+  Candidate finish(const PoseF& pose, float votes, int sightings = 1) const;
 
   /// Refines what is to be reported once more, with every point of the model.
   Candidate polish(const Candidate& candidate) const;

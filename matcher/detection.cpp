@@ -125,6 +125,7 @@ Report report_detections(const Scene::Data& scene, const Model& model, const std
     detection.coverage = c.evidence.coverage();
     detection.violations = c.evidence.violation_share();
     detection.votes = c.votes;
+    detection.sightings = c.sightings;
     detection.covariance = covariance(c.icp, model.diameter());
     for (const RigidTransform& symmetry : model.symmetries().discrete)
       detection.equivalent.push_back(detection.camera_T_model * symmetry);

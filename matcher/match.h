@@ -25,6 +25,7 @@ struct Detection {
   double margin = 0;  ///< score minus the best score of a clearly different pose that is not reported itself;
                       ///< negative if that one has the higher score but explains less. Paper mode: the score
   double votes = 0;
+  int sightings = 1;  ///< batches of references that led to it, each by itself
   /// Covariance of (rotation vector, translation) of a left perturbation exp(x) * camera_T_model about the
   /// model's centre; rad^2, rad m, m^2. From the ICP's normal equations.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
@@ -35,6 +36,7 @@ struct Detection {
 struct MatchResult {
   std::vector<Detection> detections;  ///< best first; may hold one that is not accepted (the best guess)
   std::string reason;                 ///< why nothing was accepted; empty if something was
+  bool cut_short = false;             ///< MatchOptions::max_seconds ended the search
   StageTimes times;
   size_t scene_points = 0, reference_points = 0, candidates = 0;
 };

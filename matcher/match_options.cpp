@@ -95,7 +95,8 @@ std::string MatchOptions::check() const {
     if (!fault.empty()) return stage + ("." + fault);
   return first_fault({{"max_instances", static_cast<double>(max_instances), 1, 100},
                       {"accept_score", accept_score, 0, 1},
-                      {"threads", static_cast<double>(threads), 0, 256}});
+                      {"threads", static_cast<double>(threads), 0, 256},
+                      {"max_seconds", max_seconds, 0, 3600}});
 }
 
 }  // namespace edgepose

@@ -107,6 +107,8 @@ struct MatchOptions {
   float accept_score = 0.66f;  ///< [0, 1] detections with a lower score are reported as not accepted
   uint64_t seed = 1;           ///< of the choice of references
   int threads = 0;             ///< 0 = all cores; the result does not depend on it
+  double max_seconds = 0;      ///< [s] after which the search ends with what it has; the result then depends
+                               ///< on the machine's speed. 0 = no limit
 
   /// Of all stages; a stage's fields are named "voting.border".
   std::string check() const;

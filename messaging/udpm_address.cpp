@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 
+#include <array>
 #include <charconv>
 #include <string_view>
 
@@ -62,6 +63,15 @@ UdpmAddress parse_udpm_url(const std::string& url) {
     options = options.substr(std::min(end + 1, options.size()));
   }
   return address;
+}
+
+std::string to_url(const UdpmAddress& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  const in_addr ip{htonl(address.group)};
+  inet_ntop(AF_INET, &ip, text.data(), text.size());
+  return std::string(kScheme) + text.data() + ":" + std::to_string(address.port) +
+         "?ttl=" + std::to_string(address.ttl) +
+         "&recv_buf_size=" + std::to_string(address.receive_buffer_bytes);
 }
 
 }  // namespace edgepose

@@ -21,4 +21,7 @@ inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0&r
 /// multicast group, a port, ttl or buffer out of range, an unknown option.
 UdpmAddress parse_udpm_url(const std::string& url);
 
+/// The URL that parse_udpm_url() reads as this address.
+std::string to_url(const UdpmAddress& address);
+
 }  // namespace edgepose

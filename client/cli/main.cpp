@@ -14,12 +14,12 @@
 #include "client/cli/exit_codes.h"
 #include "client/cli/info_command.h"
 #include "client/cli/match_command.h"
-#include "client/cli/nearest_word.h"
 #include "client/cli/render_command.h"
 #include "client/cli/study_command.h"
 #include "client/cli/train_command.h"
 #include "common/error.h"
 #include "common/temporary_file.h"
+#include "settings/nearest_word.h"
 
 namespace edgepose {
 namespace {

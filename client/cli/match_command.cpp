@@ -13,10 +13,10 @@
 #include "client/cli/option_checks.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/scene_input.h"
-#include "client/cli/settings.h"
 #include "common/error.h"
 #include "common/naming.h"
 #include "common/output_target.h"
+#include "settings/matcher_settings.h"
 
 namespace edgepose {
 namespace {

@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "client/cli/text.h"
-#include "client/cli/worst_sigma.h"
+#include "planning/worst_sigma.h"
 
 namespace edgepose {
 namespace {

@@ -1,8 +1,8 @@
 #include "client/cli/set_input.h"
 
 #include "client/cli/model_input.h"
-#include "client/cli/settings.h"
 #include "evaluation/selection.h"
+#include "settings/matcher_settings.h"
 
 namespace edgepose {
 

@@ -8,13 +8,13 @@
 #include "client/cli/mesh_input.h"
 #include "client/cli/model_input.h"
 #include "client/cli/option_checks.h"
-#include "client/cli/settings.h"
 #include "client/cli/text.h"
 #include "common/error.h"
 #include "common/output_target.h"
 #include "files/bop_json.h"
 #include "files/model_file.h"
 #include "files/whole_file.h"
+#include "settings/matcher_settings.h"
 
 namespace edgepose {
 namespace {

@@ -1,4 +1,4 @@
-#include "client/cli/settings.h"
+#include "settings/matcher_settings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <regex>
 #include <sstream>
 
-#include "client/cli/nearest_word.h"
 #include "client/cli/set_input.h"
 #include "common/error.h"
+#include "settings/nearest_word.h"
 
 namespace edgepose::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "client/cli/nearest_word.h"
+#include "settings/nearest_word.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,14 +1,12 @@
 #pragma once
-#include <cstdint>
 #include <filesystem>
-#include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "matcher/match.h"
 #include "matcher/model.h"
 #include "matcher/scene.h"
+#include "settings/toml_keys.h"
 
 namespace edgepose {
 
@@ -19,21 +17,14 @@ struct Settings {
   MatchOptions match;
 };
 
-/// One key of the configuration file, bound to the field it sets.
-struct SettingKey {
-  std::string path;  ///< "match.accept_score"
-  std::variant<bool*, int*, uint64_t*, float*, double*, Verification*> field;
-};
-
 /// All keys, bound to `settings`, which must outlive the result. The same names as the fields.
 std::vector<SettingKey> setting_keys(Settings& settings);
 
-/// The value as it is written in the file: "0.5", "true", "\"free_space\"".
-std::string to_toml(const SettingKey& key);
+/// Throws InputError, led by `file`, that names the field that is out of range.
+void check_settings(const Settings& settings, const std::filesystem::path& file);
 
-/// The defaults, overridden by the TOML file `path` (every key in config/edgepose.toml).
-/// Throws InputError that names the file, the line and the key: syntax, wrong type, out of range, unknown key
-/// (with the nearest known one).
+/// The defaults, overridden by the TOML file `path` (every key in config/edgepose.toml). Throws InputError
+/// that names the file, the line and the key (apply_toml), or the field that is out of range.
 Settings read_settings(const std::filesystem::path& path);
 
 /// The same from memory; `file` stands in messages.

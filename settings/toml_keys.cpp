@@ -1,14 +1,18 @@
-#include "client/cli/settings.h"
+#include "settings/toml_keys.h"
 
 #include <toml++/toml.h>
+
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <utility>
 
-#include "client/cli/nearest_word.h"
 #include "common/error.h"
 #include "files/whole_file.h"
+#include "settings/nearest_word.h"
 
 namespace edgepose {
 namespace {
@@ -43,6 +47,7 @@ struct Assign {
   bool operator()(uint64_t* field) const { return set_integer(field); }
   bool operator()(float* field) const { return set_number(field); }
   bool operator()(double* field) const { return set_number(field); }
+  bool operator()(std::string* field) const { return set(field, node.value_exact<std::string>()); }
   bool operator()(Verification* field) const {
     const auto name = node.value_exact<std::string>();
     for (const auto& [known, value] : kVerifications) {
@@ -84,6 +89,7 @@ std::string expected(const SettingKey& key) {
     std::string operator()(uint64_t*) const { return "an integer that is not negative"; }
     std::string operator()(float*) const { return "a number"; }
     std::string operator()(double*) const { return "a number"; }
+    std::string operator()(std::string*) const { return "text in quotes"; }
     std::string operator()(Verification*) const { return "\"free_space\", \"paper\" or \"surface_overlap\""; }
   } type;
   return key.path + " = " + std::visit(type, key.field);
@@ -113,71 +119,6 @@ void apply(const toml::table& table, const std::string& prefix, const std::files
 
 }  // namespace
 
-std::vector<SettingKey> setting_keys(Settings& settings) {
-  TrainOptions& train = settings.train;
-  SceneOptions& scene = settings.scene;
-  MatchOptions& match = settings.match;
-  PaperOptions& paper = match.paper;
-  return {
-      {"train.sampling_step", &train.sampling_step},
-      {"train.distance_step", &train.distance_step},
-      {"train.angle_step_deg", &train.angle_step_deg},
-      {"train.min_normal_angle_deg", &train.min_normal_angle_deg},
-      {"train.max_normal_angle_deg", &train.max_normal_angle_deg},
-      {"train.visibility_filter", &train.visibility_filter},
-      {"train.views", &train.views},
-      {"train.find_symmetries", &train.find_symmetries},
-      {"train.seed", &train.seed},
-      {"train.max_table_mb", &train.max_table_mb},
-      {"train.threads", &train.threads},
-      {"scene.min_depth", &scene.min_depth},
-      {"scene.max_depth", &scene.max_depth},
-      {"scene.threads", &scene.threads},
-      {"match.verification", &match.verification},
-      {"match.max_instances", &match.max_instances},
-      {"match.accept_score", &match.accept_score},
-      {"match.seed", &match.seed},
-      {"match.threads", &match.threads},
-      {"match.sampling.keep_edges", &match.sampling.keep_edges},
-      {"match.sampling.fine_theta_deg", &match.sampling.fine_theta_deg},
-      {"match.sampling.theta_factor", &match.sampling.theta_factor},
-      {"match.sampling.enough_points", &match.sampling.enough_points},
-      {"match.sampling.max_pixel_size", &match.sampling.max_pixel_size},
-      {"match.sampling.max_noise", &match.sampling.max_noise},
-      {"match.voting.reference_share", &match.voting.reference_share},
-      {"match.voting.min_references", &match.voting.min_references},
-      {"match.voting.max_references", &match.voting.max_references},
-      {"match.voting.peaks_per_reference", &match.voting.peaks_per_reference},
-      {"match.voting.border", &match.voting.border},
-      {"match.clustering.max_distance", &match.clustering.max_distance},
-      {"match.clustering.max_angle_deg", &match.clustering.max_angle_deg},
-      {"match.search.batch", &match.search.batch},
-      {"match.search.coarse_candidates", &match.search.coarse_candidates},
-      {"match.search.fine_candidates", &match.search.fine_candidates},
-      {"match.search.sure_once", &match.search.sure_once},
-      {"match.search.sure_twice", &match.search.sure_twice},
-      {"match.search.sure_thrice", &match.search.sure_thrice},
-      {"match.tolerance.surface", &match.tolerance.surface},
-      {"match.tolerance.noise_factor", &match.tolerance.noise_factor},
-      {"match.tolerance.max_surface", &match.tolerance.max_surface},
-      {"match.tolerance.min_normal_cosine", &match.tolerance.min_normal_cosine},
-      {"match.tolerance.shallow_depth", &match.tolerance.shallow_depth},
-      {"match.refinement.enabled", &match.refinement.enabled},
-      {"match.refinement.first_iterations", &match.refinement.first_iterations},
-      {"match.refinement.coarse_iterations", &match.refinement.coarse_iterations},
-      {"match.refinement.fine_iterations", &match.refinement.fine_iterations},
-      {"match.refinement.last_iterations", &match.refinement.last_iterations},
-      {"match.refinement.outline_sigma", &match.refinement.outline_sigma},
-      {"match.paper.candidates", &paper.candidates},
-      {"match.paper.roi_scale", &paper.roi_scale},
-      {"match.paper.accept_at_once", &paper.accept_at_once},
-      {"match.paper.accept_best", &paper.accept_best},
-      {"match.paper.edge_distance", &paper.edge_distance},
-      {"match.paper.two_classes", &paper.two_classes},
-      {"match.paper.early_exit", &paper.early_exit},
-  };
-}
-
 std::string to_toml(const SettingKey& key) {
   return std::visit(
       [](auto* field) {
@@ -186,6 +127,8 @@ std::string to_toml(const SettingKey& key) {
           for (const auto& [name, value] : kVerifications) {
             if (value == *field) text << '"' << name << '"';
           }
+        } else if constexpr (std::is_same_v<decltype(field), std::string*>) {
+          text << std::quoted(*field);
         } else {
           text << std::boolalpha << *field;
         }
@@ -194,27 +137,22 @@ std::string to_toml(const SettingKey& key) {
       key.field);
 }
 
-Settings read_settings(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const bool is_empty =
-      std::filesystem::is_regular_file(path, ignored) && std::filesystem::is_empty(path, ignored);
-  if (is_empty) return {};  // every key is optional
-  return parse_settings(read_whole_file(path, "a TOML file", kMaxSettingsBytes), path);
-}
-
-Settings parse_settings(std::string_view text, const std::filesystem::path& file) {
-  Settings settings;
+void apply_toml(std::string_view text, const std::filesystem::path& file,
+                const std::vector<SettingKey>& keys) {
   toml::table table;
   try {
     table = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw InputError::at(where(file, error.source()), "TOML", std::string(error.description()));
   }
-  apply(table, "", file, setting_keys(settings));
-  for (const std::string& fault : {settings.train.check(), settings.scene.check(), settings.match.check()}) {
-    if (!fault.empty()) throw InputError(file.string() + ": " + fault);
-  }
-  return settings;
+  apply(table, "", file, keys);
+}
+
+std::string read_settings_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const bool is_empty =
+      std::filesystem::is_regular_file(path, ignored) && std::filesystem::is_empty(path, ignored);
+  return is_empty ? "" : read_whole_file(path, "a TOML file", kMaxSettingsBytes);
 }
 
 }  // namespace edgepose
