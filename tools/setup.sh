@@ -9,7 +9,8 @@ set -euo pipefail
 
 run=(g++ cmake ninja-build libeigen3-dev libopencv-dev libembree-dev libcli11-dev nlohmann-json3-dev
      libtomlplusplus-dev libyaml-cpp-dev libpng-dev liblzf-dev libnanoflann-dev gnuplot-nox
-     liblcm-dev liblcm-bin libsodium-dev zlib1g-dev)
+     liblcm-dev liblcm-bin libsodium-dev zlib1g-dev
+     libspdlog-dev libmicrohttpd-dev libsystemd-dev)
 test=(git iproute2 clang-format clang-tidy libgtest-dev libgmock-dev)
 bench=(libpcl-dev libopencv-contrib-dev libbenchmark-dev)
 fuzz=(clang)

@@ -1,0 +1,19 @@
+#pragma once
+#include "edgepose_lcm/drill_targets_t.hpp"
+#include "edgepose_lcm/pose_estimates_t.hpp"
+#include "server/frame_answer.h"
+
+namespace edgepose {
+
+inline constexpr const char* kPosesChannel = "EDGEPOSE_POSES";
+inline constexpr const char* kDrillTargetsChannel = "EDGEPOSE_DRILL_TARGETS";
+inline constexpr const char* kStatusChannel = "EDGEPOSE_STATUS";
+
+/// The answer as it is published; send_utime and authentication are left for the sender.
+edgepose_lcm::pose_estimates_t to_poses(const WaitingFrame& frame, const FrameAnswer& answer);
+
+/// The planned holes of every accepted detection of a model with a plan: in the camera frame, with what the
+/// pose's covariance makes of them, and go or the reason why not.
+edgepose_lcm::drill_targets_t to_drill_targets(const WaitingFrame& frame, const FrameAnswer& answer);
+
+}  // namespace edgepose

@@ -1,0 +1,31 @@
+#include "server/answer_publisher.h"
+
+#include "server/clock.h"
+
+namespace edgepose {
+
+AnswerPublisher::AnswerPublisher(const UdpmAddress& address, const std::optional<SecretKey>& key)
+    : publisher_(address) {
+  if (key) signer_.emplace(*key, utime_now());
+}
+
+int64_t AnswerPublisher::publish(edgepose_lcm::pose_estimates_t& poses,
+                                 edgepose_lcm::drill_targets_t& targets) {
+  poses.send_utime = targets.send_utime = utime_now();
+  const bool sent = send(kPosesChannel, poses);
+  return send(kDrillTargetsChannel, targets) && sent ? poses.send_utime : 0;
+}
+
+bool AnswerPublisher::publish_status(edgepose_lcm::service_status_t& status) {
+  status.send_utime = utime_now();
+  return publisher_.publish(kStatusChannel, encode(status));
+}
+
+template <class Message>
+bool AnswerPublisher::send(const std::string& channel, const Message& message) {
+  std::vector<std::byte> bytes = encode(message);
+  if (signer_) signer_->sign(channel, bytes);
+  return publisher_.publish(channel, bytes);
+}
+
+}  // namespace edgepose

@@ -1,0 +1,132 @@
+#include "server/worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+#include "files/number_text.h"
+#include "matcher/stopwatch.h"
+#include "server/clock.h"
+#include "server/log.h"
+
+namespace edgepose {
+namespace {
+
+constexpr size_t kMaxJobs = 8;
+
+int64_t steady_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Whether the whole image was searched for some model.
+bool has_detection(const FrameAnswer& answer) {
+  return std::any_of(answer.models.begin(), answer.models.end(),
+                     [](const ModelAnswer& model) { return model.mode == AnswerMode::kDetection; });
+}
+
+void count(const FrameAnswer& answer, Counters& counters) {
+  counters.add("frames_answered");
+  if (answer.deadline_reached) counters.add("deadlines_reached");
+  if (answer.tracks_lost > 0) counters.add("tracks_lost", static_cast<uint64_t>(answer.tracks_lost));
+  if (answer.tracks_corrected > 0)
+    counters.add("tracks_corrected", static_cast<uint64_t>(answer.tracks_corrected));
+  for (const ModelAnswer& model : answer.models) {
+    counters.add(model.mode == AnswerMode::kDetection  ? "answers_by_detection"
+                 : model.mode == AnswerMode::kTracking ? "answers_by_tracking"
+                                                       : "answers_skipped");
+    if (!model.result.detections.empty() && model.result.detections.front().accepted)
+      counters.add("models_found");
+  }
+}
+
+}  // namespace
+
+Worker::Worker(FrameMailbox& mailbox, const Registry& registry, const LiveOptions& options,
+               AnswerPublisher& publisher, Statistics& statistics)
+    : mailbox_(mailbox),
+      registry_(registry),
+      options_(options),
+      publisher_(publisher),
+      statistics_(statistics) {
+  thread_ = std::thread([this] { run(); });
+}
+
+Worker::~Worker() {
+  stopping_ = true;
+  mailbox_.wake();
+  thread_.join();
+}
+
+bool Worker::post(Job job) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (jobs_.size() >= kMaxJobs) return false;
+    jobs_.push_back(std::move(job));
+  }
+  mailbox_.wake();
+  return true;
+}
+
+double Worker::stuck_for() const {
+  const int64_t since = busy_since_;
+  return since == 0 ? 0 : 1e-6 * static_cast<double>(steady_us() - since);
+}
+
+void Worker::run() {
+  while (!stopping_) {
+    std::optional<WaitingFrame> frame = mailbox_.take();
+    busy_since_ = steady_us();
+    if (frame) answer(std::move(*frame));
+    if (!stopping_) do_jobs();
+    busy_since_ = 0;
+  }
+}
+
+void Worker::answer(WaitingFrame&& frame) {
+  try {
+    const auto options = options_.get();
+    statistics_.waiting.add(1e-6 * static_cast<double>(utime_now() - frame.receive_utime));
+    Stopwatch watch;
+    const FrameAnswer answer = answerer_.answer(
+        frame.depth, registry_.active(),
+        {options->matcher.scene, options->matcher.match, options->tracking, options->deadline});
+    const double seconds = watch.lap();
+    (has_detection(answer) ? statistics_.detecting : statistics_.tracking).add(seconds);
+    statistics_.preprocessing.add(answer.preprocessing_seconds);
+
+    edgepose_lcm::pose_estimates_t poses = to_poses(frame, answer);
+    edgepose_lcm::drill_targets_t targets = to_drill_targets(frame, answer);
+    const int64_t sent = publisher_.publish(poses, targets);
+    if (sent == 0) {
+      statistics_.counters.add("answers_not_sent");
+      log_limited(LogLevel::kError, "answer_not_sent", "the system refused it", {});
+    }
+    count(answer, statistics_.counters);
+    statistics_.latency.add(1e-6 * static_cast<double>(sent - frame.depth.capture_utime));
+    statistics_.service_time.add(1e-6 * static_cast<double>(sent - frame.receive_utime));
+    statistics_.note_frame({frame.depth.camera, frame.depth.sequence, frame.depth.capture_utime});
+    log_event(LogLevel::kDebug, "frame_answered",
+              {{"camera", frame.depth.camera},
+               {"sequence", std::to_string(frame.depth.sequence)},
+               {"mode", has_detection(answer) ? "detection" : "tracking"},
+               {"ms", number_text(1e-3 * static_cast<double>(sent - frame.receive_utime), 4)}});
+  } catch (const std::exception& error) {
+    // One frame is not worth the service: what went wrong is counted, and the next frame is looked at.
+    statistics_.counters.add("frames_failed");
+    log_limited(LogLevel::kError, "frame_failed", error.what(), {});
+  }
+  last_ = std::move(frame.depth);
+}
+
+void Worker::do_jobs() {
+  std::vector<Job> jobs;
+  {
+    const std::scoped_lock lock(mutex_);
+    jobs.swap(jobs_);
+  }
+  for (const Job& job : jobs) job(last_ ? &*last_ : nullptr);
+}
+
+}  // namespace edgepose
