@@ -80,9 +80,9 @@ class FrameAnswerer::Frame {
   }
 
   /// Searches the whole image; what was followed well stays if the search finds nothing as good.
+  /// The first model always gets its chance.
   void detect(ModelAnswer& model) {
-    const double left = options_.deadline - watch_.total();
-    if (options_.deadline > 0 && left <= 0) {
+    if (options_.deadline > 0 && watch_.total() >= options_.deadline && searched_ > 0) {
       answer_.deadline_reached = true;
       if (model.mode == AnswerMode::kSkipped)
         model.result.reason = "the frame's time was over before its turn";
@@ -96,8 +96,11 @@ class FrameAnswerer::Frame {
       return;
     }
     MatchOptions options = options_.match;
-    if (options_.deadline > 0)
+    if (options_.deadline > 0) {
+      const double left = std::max(options_.deadline - watch_.total(), 1e-3);
       options.max_seconds = options.max_seconds > 0 ? std::min(options.max_seconds, left) : left;
+    }
+    ++searched_;
     MatchResult found = match(*scene, model.model->model, options);
     answer_.deadline_reached = answer_.deadline_reached || found.cut_short;
     const bool was_followed = model.mode == AnswerMode::kTracking;
@@ -153,6 +156,7 @@ class FrameAnswerer::Frame {
   const AnswerOptions& options_;
   FrameAnswer answer_;
   std::optional<Scene> whole_, part_;
+  int searched_ = 0;      ///< models
   std::string unusable_;  ///< why the image is no scene
   Stopwatch watch_;
 };

@@ -21,7 +21,9 @@ bool follows(int64_t sequence, int64_t capture_utime, int64_t last_sequence, int
 FrameVerdict FrameJudge::judge(const std::string& camera, int64_t sequence, int64_t capture_utime,
                                int64_t receive_utime, const FrameOptions& options) {
   // In double: the difference of any two 64-bit numbers fits.
+  // What is refused for its time is not missing before the next frame.
   const double age = 1e-6 * (static_cast<double>(receive_utime) - static_cast<double>(capture_utime));
+  if (age < -options.max_ahead || age > options.max_age) skip(camera, sequence);
   if (age < -options.max_ahead)
     return {"from_the_future", "capture_utime: expected not after the clock here, found " +
                                    std::to_string(-age) + " s later; are the clocks in step?"};
@@ -59,6 +61,7 @@ FrameVerdict FrameJudge::judge(const std::string& camera, int64_t sequence, int6
   if (sequence <= track.last.sequence)
     return {"sequence_went_back", "sequence: expected more than " + std::to_string(track.last.sequence) +
                                       ", found " + std::to_string(sequence)};
+  ++track.skipped;
   return {"time_went_back", "capture_utime: expected later than the frame before, found " +
                                 milliseconds(track.last.capture_utime - capture_utime) + " earlier"};
 }

@@ -14,12 +14,12 @@ namespace edgepose {
 struct RegisteredModel {
   std::string name;
   Model model;
-  int64_t content_hash = 0;       ///< the model file's checksum
-  std::optional<DrillPlan> plan;  ///< checked against the model
-  bool active = true;             ///< looked for in every frame
-  std::string mesh;               ///< path that it was made from, for people
-  std::string file, plan_file;    ///< names in the state folder; plan_file empty: no plan
-  int64_t registered_utime = 0;   ///< [us] since 1970, UTC
+  int64_t content_hash = 0;                      ///< the model file's checksum
+  std::optional<DrillPlan> plan = std::nullopt;  ///< checked against the model
+  bool active = true;                            ///< looked for in every frame
+  std::string mesh = "";                         ///< path that it was made from, for people
+  std::string file = "", plan_file = "";         ///< names in the state folder; plan_file empty: no plan
+  int64_t registered_utime = 0;                  ///< [us] since 1970, UTC
 };
 
 using ModelHandle = std::shared_ptr<const RegisteredModel>;

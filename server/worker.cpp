@@ -96,6 +96,7 @@ void Worker::answer(WaitingFrame&& frame) {
     (has_detection(answer) ? statistics_.detecting : statistics_.tracking).add(seconds);
     statistics_.preprocessing.add(answer.preprocessing_seconds);
 
+    statistics_.note_frame({frame.depth.camera, frame.depth.sequence, frame.depth.capture_utime});
     edgepose_lcm::pose_estimates_t poses = to_poses(frame, answer);
     edgepose_lcm::drill_targets_t targets = to_drill_targets(frame, answer);
     const int64_t sent = publisher_.publish(poses, targets);
@@ -106,7 +107,6 @@ void Worker::answer(WaitingFrame&& frame) {
     count(answer, statistics_.counters);
     statistics_.latency.add(1e-6 * static_cast<double>(sent - frame.depth.capture_utime));
     statistics_.service_time.add(1e-6 * static_cast<double>(sent - frame.receive_utime));
-    statistics_.note_frame({frame.depth.camera, frame.depth.sequence, frame.depth.capture_utime});
     log_event(LogLevel::kDebug, "frame_answered",
               {{"camera", frame.depth.camera},
                {"sequence", std::to_string(frame.depth.sequence)},
