@@ -100,7 +100,7 @@ Report report_detections(const Scene::Data& scene, const Model& model, const std
   const float d = static_cast<float>(model.diameter());
   const SceneEdges edges(scene, 0.01f * d, d / 32);
   const PoseComparison comparison(model);
-  const NearModel near_model(view, options.paper.edge_distance * d);
+  const auto near_model = view.near_model->get(view, options.paper.edge_distance * d);
   Report report;
   std::vector<Detection>& detections = report.detections;
   std::vector<PoseF> reported;
@@ -121,7 +121,7 @@ Report report_detections(const Scene::Data& scene, const Model& model, const std
     detection.camera_T_model = to_rigid(c.pose);
     detection.score = c.confidence;
     detection.accepted = accepted;
-    detection.edge_score = edge_score(edges, view, near_model, c.pose, options.paper);
+    detection.edge_score = edge_score(edges, view, *near_model, c.pose, options.paper);
     detection.coverage = c.evidence.coverage();
     detection.violations = c.evidence.violation_share();
     detection.votes = c.votes;

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -64,6 +65,9 @@ struct ModelHeader {
   std::array<Extent, static_cast<size_t>(Section::kCount)> sections;
 };
 
+class NearModelCache;  // matcher/near_model.h
+std::shared_ptr<NearModelCache> make_near_model_cache();
+
 /// The sections as typed spans into the block.
 struct Model::View {
   const ModelHeader* header = nullptr;
@@ -75,6 +79,8 @@ struct Model::View {
   std::span<const ContourPoint> contours;
   std::span<const double> discrete, continuous;
   std::string_view name;
+  std::shared_ptr<NearModelCache> near_model =
+      make_near_model_cache();  ///< beside the block, made when asked for
 
   size_t words_per_view() const { return (dense_points.size() + 63) / 64; }
   std::span<const uint64_t> visible_from(size_t view) const {

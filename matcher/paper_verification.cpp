@@ -14,10 +14,50 @@ constexpr float kClusterLink = 0.05f;  // [d] edge points closer than this belon
 constexpr float kClusterReach =
     0.6f;  // [d] clusters whose centre is farther from the pose's centre are clutter
 
+/// Points in the cells of a box, for search within a cell's size: no hashing, as the box is small.
+class BoxGrid {
+ public:
+  BoxGrid(const std::vector<Eigen::Vector3f>& points, float cell) : inverse_cell_(1 / cell) {
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& p : points) box.extend(p);
+    low_ = box.min();
+    size_ = ((box.max() - low_) * inverse_cell_).array().floor().cast<int>() + 1;
+    first_.assign(static_cast<size_t>(size_.prod()) + 1, 0);
+    for (const Eigen::Vector3f& p : points) ++first_[index(cell_of(p)) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+    members_.resize(points.size());
+    for (uint32_t i = 0; i < points.size(); ++i) members_[next[index(cell_of(points[i]))]++] = i;
+  }
+  /// Calls visit(i) for each point in the 27 cells around `p`, which must be one of them.
+  template <typename Visit>
+  void visit_near(const Eigen::Vector3f& p, const Visit& visit) const {
+    const Eigen::Array3i cell = cell_of(p), from = (cell - 1).max(0), to = (cell + 1).min(size_ - 1);
+    for (int z = from.z(); z <= to.z(); ++z)
+      for (int y = from.y(); y <= to.y(); ++y) {
+        const uint32_t begin = first_[index({from.x(), y, z})], end = first_[index({to.x(), y, z}) + 1];
+        for (uint32_t m = begin; m < end; ++m) visit(members_[m]);
+      }
+  }
+
+ private:
+  Eigen::Array3i cell_of(const Eigen::Vector3f& p) const {
+    return ((p - low_) * inverse_cell_).array().floor().cast<int>().max(0).min(size_ - 1);
+  }
+  size_t index(const Eigen::Array3i& c) const {
+    return (static_cast<size_t>(c.z()) * size_.y() + c.y()) * size_.x() + c.x();
+  }
+
+  float inverse_cell_;
+  Eigen::Vector3f low_;
+  Eigen::Array3i size_;
+  std::vector<uint32_t> first_, members_;
+};
+
 /// Single-linkage clusters: for each point the number of its cluster.
 std::vector<uint32_t> link_clusters(const std::vector<Eigen::Vector3f>& points, float link) {
-  PointGrid grid(link);
-  for (uint32_t i = 0; i < points.size(); ++i) grid.add(points[i], i);
+  if (points.empty()) return {};
+  const BoxGrid grid(points, link);
   std::vector<uint32_t> cluster(points.size(), ~0u);
   uint32_t count = 0;
   for (uint32_t seed = 0; seed < points.size(); ++seed) {
@@ -30,7 +70,6 @@ std::vector<uint32_t> link_clusters(const std::vector<Eigen::Vector3f>& points, 
       grid.visit_near(points[at], [&](uint32_t k) {
         if (cluster[k] == ~0u && (points[k] - points[at]).squaredNorm() < link * link)
           cluster[k] = count, open.push_back(k);
-        return true;
       });
     }
     ++count;
@@ -72,37 +111,6 @@ std::vector<Eigen::Vector3f> edges_in_roi(const SceneEdges& edges, const Model::
 }
 
 }  // namespace
-
-NearModel::NearModel(const Model::View& model, float distance) {
-  constexpr int kReach = 2;  // cells in the distance
-  const float cell = distance / kReach;
-  inverse_cell_ = 1 / cell;
-  const ModelHeader& h = *model.header;
-  const Eigen::Vector3f low = Eigen::Vector3d(h.box_min.data()).cast<float>(),
-                        high = Eigen::Vector3d(h.box_max.data()).cast<float>();
-  origin_ = low.array() - (kReach + 1) * cell;
-  size_ = ((high - low) * inverse_cell_).array().ceil().cast<int>() + 2 * (kReach + 1) + 1;
-  near_.assign(static_cast<size_t>(size_.prod()), false);
-  for (const OrientedPoint& m : model.dense_points) {
-    const Eigen::Vector3f at = (m.position - origin_) * inverse_cell_;
-    const Eigen::Array3i first = (at.array().floor().cast<int>() - kReach).max(0);
-    const Eigen::Array3i last = (at.array().floor().cast<int>() + kReach).min(size_ - 1);
-    for (int z = first.z(); z <= last.z(); ++z)
-      for (int y = first.y(); y <= last.y(); ++y)
-        for (int x = first.x(); x <= last.x(); ++x) {
-          const Eigen::Vector3f middle = Eigen::Array3i(x, y, z).cast<float>() + 0.5f;
-          if ((middle - at).squaredNorm() < kReach * kReach)
-            near_[(static_cast<size_t>(z) * size_.y() + y) * size_.x() + x] = true;
-        }
-  }
-}
-
-bool NearModel::operator()(const Eigen::Vector3f& p) const {
-  const Eigen::Array3f at = (p - origin_) * inverse_cell_;
-  if (!((at >= 0).all() && (at < size_.cast<float>()).all())) return false;
-  const Eigen::Array3i c = at.cast<int>();
-  return near_[(static_cast<size_t>(c.z()) * size_.y() + c.y()) * size_.x() + c.x()];
-}
 
 SceneEdges::SceneEdges(const Scene::Data& scene, float cell, float max_pixel_size) {
   std::unordered_set<uint64_t> taken;
@@ -152,7 +160,9 @@ float surface_overlap(const Scene::Data& scene, const Model::View& model, const 
 size_t verify_like_the_paper(const SceneEdges& edges, const Model::View& model,
                              const std::vector<PoseF>& poses, const std::vector<float>& votes,
                              const PaperOptions& options, int threads, size_t* detailed) {
-  const NearModel near_model(model, options.edge_distance * static_cast<float>(model.header->diameter));
+  const auto cached =
+      model.near_model->get(model, options.edge_distance * static_cast<float>(model.header->diameter));
+  const NearModel& near_model = *cached;
   size_t looked_at = 0, best = 0;
   float best_score = -1;
   // One class after the other; in each, the N poses that most edges support get the score of Eq. 2.

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "matcher/match.h"
+#include "matcher/near_model.h"
 #include "matcher/point_grid.h"
 #include "matcher/pose_projection.h"
 
@@ -15,20 +16,6 @@ class SceneEdges {
 
  private:
   std::vector<Eigen::Vector3f> points_;
-};
-
-/// Tells which points (model frame) lie within a distance [m] of the model's surface: a bit for each cell of
-/// a grid over the model, right to half a cell, a quarter of the distance.
-class NearModel {
- public:
-  NearModel(const Model::View& model, float distance);
-  bool operator()(const Eigen::Vector3f& p) const;
-
- private:
-  Eigen::Vector3f origin_;
-  Eigen::Array3i size_;
-  float inverse_cell_;
-  std::vector<bool> near_;
 };
 
 /// Number of scene edge points near the posed model: the quick look of Sec. 4.3.4.

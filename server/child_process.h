@@ -25,7 +25,7 @@ struct ChildEnd {
   std::string out, err;  ///< what it printed, the first 256 KiB of each
 };
 
-/// Runs this program anew with `arguments`, at the lowest priority and without anything open but its three
+/// Runs this program anew with `arguments`, at a low priority and without anything open but its three
 /// streams; `input` is what it reads. It dies with this process, and leaves no core file. Throws
 /// std::system_error if it cannot be started.
 ChildEnd run_self(const std::vector<std::string>& arguments, const std::string& input,

@@ -32,7 +32,7 @@ struct TrackingOptions {
 struct TrainingLimits {
   int memory_mb = 4096;  ///< [MB] of address space
   double seconds = 120;  ///< wall time
-  int threads = 1;       ///< it shares the cores with matching, at the lowest priority
+  int threads = 1;       ///< it shares the cores with matching, at a low priority
 
   std::string check() const;
 };

@@ -12,7 +12,7 @@ class TrainingFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Trains in a child process (this program, started anew) with limits on memory and time and at the lowest
+/// Trains in a child process (this program, started anew) with limits on memory and time and at a low
 /// priority; files are read there only, so that what is wrong with them costs no more than the child. Returns
 /// when it is done. Throws InputError for what the child says is bad input, TrainingFailure if it did not end
 /// by itself (`stop`: it is killed). The files are in `incoming`, or nowhere.

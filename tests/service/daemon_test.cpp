@@ -79,7 +79,7 @@ TEST_F(DaemonTest, SigtermFinishesAndEndsWithZero) {
   start();
   register_phantom();
   const int64_t sequence = peer_->send(scene()[0].depth);
-  ASSERT_TRUE(eventually([&] { return daemon_->counter("frames_received") == 1; }));
+  ASSERT_TRUE(eventually([&] { return daemon_->result("stats")["stages"]["waiting"]["count"] == 1; }));
   daemon_->process().signal(SIGTERM);
   EXPECT_EQ(daemon_->process().wait(10), 0) << daemon_->log();
   EXPECT_TRUE(peer_->answer_to(sequence, 1)) << "the frame at hand is finished";

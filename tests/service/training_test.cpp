@@ -127,7 +127,7 @@ TEST(ChildProcess, ReadsAllAndPrintsSo) {
   const std::string input(1'000'000, 'x');
   const ChildEnd end = run_self({"--count"}, input, {0, 20});
   EXPECT_EQ(end.out, "1000000");
-  EXPECT_EQ(end.err, "19") << "the lowest priority";
+  EXPECT_EQ(end.err, "10") << "its priority";
 }
 
 TEST(ChildProcess, EndlessOutputIsBounded) {
