@@ -38,6 +38,8 @@ constexpr const char* kExamples = R"(Examples:
   edgepose train bolt.ply -o bolt.model
   edgepose match bolt.model --depth frame.png --intrinsics 600,600,320,240
   edgepose match bolt.model --depth frame.png --intrinsics scene_camera.json --overlay found.png --json
+  edgepose models add bolt.ply && edgepose send frames/ --intrinsics camera_info.yaml    # with edgeposed running
+  edgepose watch
   edgepose COMMAND --help
 
 Exit code: 0 found or done, 1 not found, 2 bad input (one line on stderr says what).)";
