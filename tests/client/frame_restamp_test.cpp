@@ -13,7 +13,7 @@ namespace {
 using Outcome = FrameRestamp::Outcome;
 
 edgepose_lcm::depth_frame_t frame(const std::string& camera, int64_t sequence) {
-  DepthFrame made{1000 + sequence, sequence, camera, {600, 600, 1, 1}, {4, 2, {1, 2, 3, 4, 0, 6, 7, 8}}};
+  DepthFrame made{1000 + sequence, sequence, camera, {6, 6, 1, 1}, {4, 2, {1, 2, 3, 4, 0, 6, 7, 8}}};
   return pack(made, 0.001, DepthEncoding::kRvl);
 }
 
