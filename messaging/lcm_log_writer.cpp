@@ -14,13 +14,13 @@
 #include "common/error.h"
 #include "common/output_target.h"
 #include "messaging/big_endian.h"
+#include "messaging/lcm_log_format.h"
 
 namespace edgepose {
 namespace {
 
-// As lcm_log.cpp says.
-constexpr uint32_t kSync = 0xeda1da01;
-constexpr size_t kHeader = 28, kMaxChannel = 255, kMaxData = size_t{256} << 20;
+namespace format = lcm_log_format;
+
 constexpr size_t kBufferBytes = size_t{1} << 20;
 
 void append(std::vector<std::byte>& to, std::span<const std::byte> more) {
@@ -51,10 +51,11 @@ LcmLogWriter::~LcmLogWriter() {
 }
 
 void LcmLogWriter::write(int64_t receive_utime, std::string_view channel, std::span<const std::byte> data) {
-  if (channel.empty() || channel.size() > kMaxChannel) throw std::invalid_argument("channel's length");
-  if (data.size() > kMaxData) throw std::invalid_argument("message's length");
-  std::array<std::byte, kHeader> header;
-  write_big_endian(kSync, header, 0);
+  if (channel.empty() || channel.size() > size_t{format::kMaxChannel})
+    throw std::invalid_argument("channel's length");
+  if (data.size() > size_t{format::kMaxData}) throw std::invalid_argument("message's length");
+  std::array<std::byte, format::kHeader> header;
+  write_big_endian(format::kSync, header, 0);
   write_big_endian(static_cast<int64_t>(next_event_++), header, 4);
   write_big_endian(receive_utime, header, 12);
   write_big_endian(static_cast<int32_t>(channel.size()), header, 20);

@@ -62,7 +62,10 @@ bool is_found(const json& model) { return member(model, "found") == true; }
 /// Millimetres; the whole of it is in the JSON.
 void print_detections(std::ostream& out, const json& report) {
   const json& models = member(report, "models");
-  if (!models.is_array()) return;
+  if (!models.is_array() || models.empty()) {
+    out << "no model is active; edgepose models activate NAME changes that\n";
+    return;
+  }
   out << formatted("%-20s %-5s %26s  %5s\n", "model", "found", "position in camera [mm]", "score");
   for (const json& model : models) {
     const std::string name = text_of(model, "model");

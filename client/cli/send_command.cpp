@@ -116,7 +116,7 @@ bool Sender::print_summary() const {
               << sequence_ - 1;
   std::cout << '\n';
   if (refused_ > 0) std::cout << "refused by the system: " << refused_ << " frames\n";
-  if (pacer_ && pacer_->missed() > 0)
+  if (!command_.wait && pacer_ && pacer_->missed() > 0)
     std::cout << "deadlines missed: " << pacer_->missed() << " (reading or sending was slower than --rate)\n";
   if (!command_.wait) return refused_ == 0;
   const LatencyFigures figures = latency_figures(latencies_);
