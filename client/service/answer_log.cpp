@@ -16,6 +16,7 @@ std::optional<LoggedPose> read_pose(const detection_t& detection) {
   const auto pose = from_message(detection.camera_T_model);
   if (!pose) return std::nullopt;
   LoggedPose logged{detection.camera_T_model, *pose, {}};
+  logged.equivalent.reserve(detection.camera_T_equivalent.size());
   for (const rigid_transform_t& other : detection.camera_T_equivalent) {
     const auto equivalent = from_message(other);
     if (!equivalent) return std::nullopt;

@@ -1,8 +1,9 @@
 #include "client/service/answer_pairs.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -60,8 +61,12 @@ size_t same_count(const AnswerPairs& pairs) {
 }  // namespace
 
 bool same_bits(const LoggedPose& a, const LoggedPose& b) {
-  return std::memcmp(a.sent.quaternion, b.sent.quaternion, sizeof(a.sent.quaternion)) == 0 &&
-         std::memcmp(a.sent.translation, b.sent.translation, sizeof(a.sent.translation)) == 0;
+  // Not ==, to which 0 and -0 are the same.
+  const auto same = [](double x, double y) {
+    return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y);
+  };
+  return std::equal(std::begin(a.sent.quaternion), std::end(a.sent.quaternion), b.sent.quaternion, same) &&
+         std::equal(std::begin(a.sent.translation), std::end(a.sent.translation), b.sent.translation, same);
 }
 
 bool same_bits(const LoggedAnswer& a, const LoggedAnswer& b) {

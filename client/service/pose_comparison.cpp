@@ -39,6 +39,7 @@ void compare_model(const std::vector<LoggedPose>& a, const std::vector<LoggedPos
                    ModelComparison& model) {
   ++model.answers;
   std::vector<const LoggedPose*> left;
+  left.reserve(b.size());
   for (const LoggedPose& pose : b) left.push_back(&pose);
   for (const LoggedPose& pose : a) {
     const auto near = std::min_element(left.begin(), left.end(), [&](const auto* p, const auto* q) {

@@ -35,6 +35,7 @@ std::map<std::string, const TestObject*> asked_objects(const CameraAnswers& answ
 void compare_image(const TestImage& image, const TestObject& object, const std::vector<LoggedPose>& found,
                    const PoseError& error, TruthModel& model) {
   std::vector<const LoggedPose*> left;
+  left.reserve(found.size());
   for (const LoggedPose& pose : found) left.push_back(&pose);
   for (const GroundTruth& truth : image.truth) {
     if (truth.object_id != object.id) continue;
