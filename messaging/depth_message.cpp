@@ -118,9 +118,9 @@ FrameFault unpack(const edgepose_lcm::depth_frame_t& m, DepthFrame& frame, std::
   frame.intrinsics = {m.fx, m.fy, m.cx, m.cy};
   frame.image.width = m.width, frame.image.height = m.height;
   frame.image.depth.resize(pixels);
-  const auto scale = static_cast<float>(m.depth_scale);
+  // As a depth PNG is read: the same image gives the same bits whichever way it comes.
   std::transform(depth.begin(), depth.end(), frame.image.depth.begin(),
-                 [&](uint16_t d) { return scale * static_cast<float>(d); });
+                 [&](uint16_t d) { return static_cast<float>(d * m.depth_scale); });
   return FrameFault::kNone;
 }
 

@@ -6,15 +6,13 @@
 
 #include "common/error.h"
 #include "messaging/big_endian.h"
+#include "messaging/lcm_log_format.h"
 
 namespace edgepose {
 namespace {
 
-// A record: sync u32, event i64, microseconds i64, channel length i32, data length i32 (big endian), channel,
-// data.
-constexpr uint32_t kSync = 0xeda1da01;
-constexpr size_t kHeader = 28;
-constexpr int32_t kMaxChannel = 255, kMaxData = 256 << 20;
+namespace format = lcm_log_format;
+
 constexpr size_t kBlock = 1 << 16;
 
 }  // namespace
@@ -33,19 +31,19 @@ LcmLogReader::LcmLogReader(const std::filesystem::path& path) {
 bool LcmLogReader::find_sync() {
   const uint64_t from = at_;
   std::vector<std::byte> block(kBlock);
-  while (at_ + kHeader <= size_) {
+  while (at_ + format::kHeader <= size_) {
     file_.clear();
     file_.seekg(static_cast<std::streamoff>(at_));
     file_.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
     const auto got = static_cast<size_t>(file_.gcount());
-    if (got < sizeof(kSync)) break;
-    for (size_t i = 0; i + sizeof(kSync) <= got; ++i)
-      if (read_big_endian<uint32_t>(block, i) == kSync) {
+    if (got < sizeof(format::kSync)) break;
+    for (size_t i = 0; i + sizeof(format::kSync) <= got; ++i)
+      if (read_big_endian<uint32_t>(block, i) == format::kSync) {
         at_ += i;
         skipped_ += at_ - from;
         return true;
       }
-    at_ += got - (sizeof(kSync) - 1);
+    at_ += got - (sizeof(format::kSync) - 1);
   }
   at_ = size_;
   skipped_ += at_ - from;
@@ -53,25 +51,25 @@ bool LcmLogReader::find_sync() {
 }
 
 bool LcmLogReader::next(LoggedMessage& message) {
-  std::array<std::byte, kHeader> header;
-  while (at_ + kHeader <= size_) {
+  std::array<std::byte, format::kHeader> header;
+  while (at_ + format::kHeader <= size_) {
     file_.clear();
     file_.seekg(static_cast<std::streamoff>(at_));
-    if (!file_.read(reinterpret_cast<char*>(header.data()), kHeader)) break;
-    if (read_big_endian<uint32_t>(header, 0) != kSync) {
+    if (!file_.read(reinterpret_cast<char*>(header.data()), format::kHeader)) break;
+    if (read_big_endian<uint32_t>(header, 0) != format::kSync) {
       if (!find_sync()) break;
       continue;
     }
     const auto channel = read_big_endian<int32_t>(header, 20), data = read_big_endian<int32_t>(header, 24);
-    if (channel < 1 || channel > kMaxChannel || data < 0 || data > kMaxData) {
-      at_ += sizeof(kSync), skipped_ += sizeof(kSync);
+    if (channel < 1 || channel > format::kMaxChannel || data < 0 || data > format::kMaxData) {
+      at_ += sizeof(format::kSync), skipped_ += sizeof(format::kSync);
       continue;
     }
-    const uint64_t end = at_ + kHeader + static_cast<uint64_t>(channel) + static_cast<uint64_t>(data);
+    const uint64_t end = at_ + format::kHeader + static_cast<uint64_t>(channel) + static_cast<uint64_t>(data);
     if (end > size_) {
       // Cut off, unless the lengths are wrong and whole records follow.
       cut_off_ = true;
-      at_ += sizeof(kSync), skipped_ += sizeof(kSync);
+      at_ += sizeof(format::kSync), skipped_ += sizeof(format::kSync);
       continue;
     }
     cut_off_ = false;

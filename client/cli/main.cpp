@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -10,13 +11,22 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/compare_command.h"
+#include "client/cli/detect_command.h"
 #include "client/cli/eval_command.h"
 #include "client/cli/exit_codes.h"
 #include "client/cli/info_command.h"
+#include "client/cli/keygen_command.h"
 #include "client/cli/match_command.h"
+#include "client/cli/models_command.h"
+#include "client/cli/record_command.h"
 #include "client/cli/render_command.h"
+#include "client/cli/replay_command.h"
+#include "client/cli/send_command.h"
+#include "client/cli/status_command.h"
 #include "client/cli/study_command.h"
 #include "client/cli/train_command.h"
+#include "client/cli/watch_command.h"
 #include "common/error.h"
 #include "common/temporary_file.h"
 #include "settings/nearest_word.h"
@@ -28,6 +38,8 @@ constexpr const char* kExamples = R"(Examples:
   edgepose train bolt.ply -o bolt.model
   edgepose match bolt.model --depth frame.png --intrinsics 600,600,320,240
   edgepose match bolt.model --depth frame.png --intrinsics scene_camera.json --overlay found.png --json
+  edgepose models add bolt.ply && edgepose send frames/ --intrinsics camera_info.yaml    # with edgeposed running
+  edgepose watch
   edgepose COMMAND --help
 
 Exit code: 0 found or done, 1 not found, 2 bad input (one line on stderr says what).)";
@@ -61,6 +73,15 @@ void add_commands(CLI::App& app) {
   add_eval_command(app);
   add_study_command(app);
   add_render_command(app);
+  add_keygen_command(app);
+  add_models_command(app);
+  add_status_command(app);
+  add_detect_command(app);
+  add_send_command(app);
+  add_watch_command(app);
+  add_record_command(app);
+  add_replay_command(app);
+  add_compare_command(app);
 }
 
 int parse_and_run(CLI::App& app, int argc, char** argv) {
@@ -93,6 +114,7 @@ void occupy_standard_streams() {
 }  // namespace edgepose
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is an error of the write, as a full disk
   edgepose::occupy_standard_streams();
   edgepose::remove_temporary_files_on_signals();
   try {
