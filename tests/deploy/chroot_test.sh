@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs edgepose as docker/Dockerfile does, by the same scripts, on a Debian 12 that has nothing else (debootstrap),
 # and runs the daemon there as the container would: as its own user, without rights, on a read-only system, in a network
-# of its own. Usage: tests/deploy/chroot_test.sh
+# of its own; then under systemd. Usage: tests/deploy/chroot_test.sh
 #   EDGEPOSE_CHROOT=DIR  works in DIR, and leaves it there; what is installed in it already is not installed again
 # Needs root, debootstrap and the network; says SKIPPED without. Half an hour on two cores from nothing.
 set -euo pipefail
@@ -15,8 +15,8 @@ for program in debootstrap unshare ip setpriv; do
 done
 # Mounts, processes and network end with the script, and are nobody else's.
 if [ "${1:-}" != --inside ]; then
-  unshare --mount --pid --fork --kill-child true || skip "needs namespaces"
-  exec unshare --mount --pid --fork --kill-child bash "$0" --inside
+  unshare --mount --mount-proc --pid --fork --kill-child true || skip "needs namespaces"
+  exec unshare --mount --mount-proc --pid --fork --kill-child bash "$0" --inside
 fi
 
 if [ -n "${EDGEPOSE_CHROOT:-}" ]; then
@@ -28,12 +28,12 @@ fi
 clean_up() {
   jobs -p | xargs -r kill 2>/dev/null || true
   wait
-  while read -r mounted; do umount -l "$mounted"; done < <(awk -v r="$root" 'index($2, r "/") == 1 {print $2}' /proc/mounts | tac)
+  while read -r mounted; do umount -l "$mounted" 2>/dev/null || true; done < <(awk -v r="$root" 'index($2, r "/") == 1 {print $2}' /proc/mounts | tac)
   if grep -q " $root" /proc/mounts; then umount -l "$root"; fi
   [ -n "${EDGEPOSE_CHROOT:-}" ] || rm -rf --one-file-system "$root"
 }
 trap clean_up EXIT
-in_root() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin chroot "$root" "$@"; }
+in_root() { env -i HOME=/root PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin chroot "$root" "$@"; }
 step() { printf '\n== %s (after %d s)\n' "$1" "$SECONDS"; }
 
 step "a bare Debian 12"
@@ -71,6 +71,7 @@ in_root edgeposed --version
 in_root edgeposed --config /etc/edgepose/edgeposed.toml --check-config
 
 step "the daemon, confined as in docker/compose.yaml"
+rm -rf "${root:?}"/var/lib/edgepose/*
 mount --bind "$root" "$root"
 mount -t proc proc "$root/proc"
 mount --bind "$root/var/lib/edgepose" "$root/var/lib/edgepose"
@@ -84,21 +85,22 @@ chmod 755 "$root/tmp"
 touch "$root/tmp/daemon.log"
 
 run_confined() { # command...: as edgepose, no capability, no way to any, the limits of compose.yaml
-  env -i PATH=/usr/local/bin:/usr/bin:/bin EDGEPOSE_SOCKET=/run/edgepose/control.sock STATE_DIRECTORY=/var/lib/edgepose \
+  env -i PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin EDGEPOSE_SOCKET=/run/edgepose/control.sock STATE_DIRECTORY=/var/lib/edgepose \
     chroot "$root" sh -c 'cd /opt/edgepose && exec setpriv --reuid edgepose --regid edgepose --init-groups \
     --no-new-privs --inh-caps=-all --bounding-set=-all prlimit --core=0 --nofile=4096 "$@"' sh "$@"
 }
 serve() {
   ip link set lo up && ip route add 224.0.0.0/4 dev lo
   run_confined edgeposed --config docker/edgeposed.toml 2>"$root/tmp/daemon.log" &
-  daemon=$!
+  local job=$! daemon
   for _ in $(seq 100); do
     if grep -q event=ready "$root/tmp/daemon.log"; then break; fi
     sleep 0.1
   done
   grep event=ready "$root/tmp/daemon.log" || fail "no READY"
+  daemon=$(pgrep -x edgeposed)
   ! run_confined sh -c 'touch /usr/local/bin/x' 2>/dev/null || fail "the system can be written"
-  grep -E '^(Uid|Cap|NoNewPrivs)' "/proc/$(pgrep -P $$ -f '^edgeposed' | head -n 1)/status" || true
+  grep -E '^(Uid|Cap|NoNewPrivs)' "/proc/$daemon/status"
   run_confined bash docker/healthcheck.sh || fail "/healthz"
   echo "/healthz: ok"
   ask models.register '{"mesh":"/opt/edgepose/models/phantom/phantom.ply","plan":"/opt/edgepose/models/phantom/drill_plan.json"}' |
@@ -110,7 +112,7 @@ serve() {
   kill -HUP "$daemon" && sleep 0.5
   grep event=reloaded "$root/tmp/daemon.log" || fail "SIGHUP"
   kill -TERM "$daemon"
-  wait "$daemon" || fail "exit code $? after SIGTERM"
+  wait "$job" || fail "exit code $? after SIGTERM"
   [ -n "$(ls "$root"/var/lib/edgepose/phantom-*.model)" ] || fail "no model in the state folder"
   ! run_confined bash docker/healthcheck.sh 2>/dev/null || fail "/healthz of a daemon that has ended"
 }
@@ -122,4 +124,10 @@ export -f run_confined serve ask fail
 export root
 unshare --net bash -euo pipefail -c serve
 
-printf '\nThe installation and the confined daemon work (%d s)\n' "$SECONDS"
+step "the unit, under a systemd of its own"
+mount -o remount,bind,rw "$root"
+while read -r mounted; do umount -l "$mounted"; done < <(awk -v r="$root" 'index($2, r) == 1 {print $2}' /proc/mounts | tac)
+in_root bash -c '[ -e /lib/systemd/systemd ] || apt-get -q install -y --no-install-recommends systemd' >/dev/null 2>&1
+bash tests/deploy/systemd_test.sh "$root"
+
+printf '\nThe installation, the confined daemon and the unit work (%d s)\n' "$SECONDS"
