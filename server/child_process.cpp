@@ -85,6 +85,10 @@ void limit(int what, rlim_t value) {
   dup2(in, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
+  if (const int score = open("/proc/self/oom_score_adj", O_WRONLY); score >= 0) {
+    [[maybe_unused]] const ssize_t written =
+        write(score, "1000", 4);  // should memory run out, this one goes first
+  }
   syscall(SYS_close_range, 3u, ~0u, 0u);
   if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
   limit(RLIMIT_CORE, 0);

@@ -9,6 +9,7 @@ constexpr int64_t kSilence = 10'000'000;  // [us] after which a camera may be fo
 /// A camera that was restarted, or whose clock was set back, goes on from where it is then: so many frames
 /// that follow each other are believed. Old frames sent again one by one are not.
 constexpr int kStraysBelieved = 3;
+constexpr double kFastest = 500;  // [frames/s]
 
 std::string milliseconds(int64_t us) { return std::to_string(us / 1000) + " ms"; }
 
@@ -41,12 +42,15 @@ FrameVerdict FrameJudge::judge(const std::string& camera, int64_t sequence, int6
   Track& track = known->second;
   track.heard = receive_utime;
   if (follows(sequence, capture_utime, track.last.sequence, track.last.capture_utime)) {
+    const double seconds = 1e-6 * static_cast<double>(capture_utime - track.last.capture_utime);
     const double missing = static_cast<double>(sequence) - static_cast<double>(track.last.sequence) - 1 -
                            static_cast<double>(track.skipped);
     track.last = {sequence, capture_utime};
     track.skipped = 0;
     track.strays = 0;
-    return {"", "", static_cast<int64_t>(std::clamp(missing, 0.0, 1e9))};
+    // No camera is so fast: it has been started anew with higher numbers.
+    if (missing > kFastest * seconds + kStraysBelieved) return {"", "", 0, true};
+    return {"", "", static_cast<int64_t>(std::max(missing, 0.0))};
   }
   const bool goes_on = track.strays > 0 &&
                        follows(sequence, capture_utime, track.strayed.sequence, track.strayed.capture_utime);

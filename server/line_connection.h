@@ -12,12 +12,14 @@ inline constexpr size_t kMaxLine = 64 << 10, kMaxUnsent = 4 << 20;
 /// thread-safe.
 class LineConnection {
  public:
-  explicit LineConnection(int descriptor) : descriptor_(descriptor) {}
+  explicit LineConnection(int descriptor, bool over_tcp = false)
+      : descriptor_(descriptor), over_tcp_(over_tcp) {}
   LineConnection(const LineConnection&) = delete;
   LineConnection& operator=(const LineConnection&) = delete;
   ~LineConnection();
 
   int descriptor() const { return descriptor_; }
+  bool over_tcp() const { return over_tcp_; }
   /// Reads what has come. False: the client is gone, or sends a line that is too long.
   bool receive();
   /// The next whole line, without its end.
@@ -41,6 +43,7 @@ class LineConnection {
 
  private:
   int descriptor_;
+  bool over_tcp_;
   std::string in_, out_;
   bool ended_ = false, too_long_ = false;
 };

@@ -90,7 +90,7 @@ void LineServer::accept_from(const ListeningSocket& socket) {
     return;
   }
   counters_.add("clients");
-  clients_.emplace(next_id_++, std::make_unique<LineConnection>(descriptor));
+  clients_.emplace(next_id_++, std::make_unique<LineConnection>(descriptor, socket.is_tcp()));
 }
 
 void LineServer::serve(ClientId id, LineConnection& client, short events) {
@@ -109,6 +109,8 @@ void LineServer::work_on_lines(ClientId id, LineConnection& client) {
     const std::optional<std::string> line = client.next_line();
     if (!line) break;
     if (line->empty()) continue;
+    // A web page may send a request to the loopback whose body looks like a command; its first line does not.
+    if (client.over_tcp() && line->front() != '{') return drop(id, "what is no request");
     const std::optional<std::string> reply = handler_(id, *line);
     client.busy = !reply;
     if (reply && !client.queue(*reply)) return drop(id, "answers that it does not take");

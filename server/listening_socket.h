@@ -16,6 +16,7 @@ class ListeningSocket {
   ListeningSocket& operator=(ListeningSocket&&) = delete;
   ~ListeningSocket();
   int descriptor() const { return descriptor_; }
+  bool is_tcp() const { return path_.empty(); }
 
  private:
   ListeningSocket(int descriptor, int lock, std::filesystem::path path)

@@ -1,4 +1,6 @@
 /// edgeposed: the daemon. Options, and what can go wrong at the start; everything else is server/service.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <cstring>
 #include <filesystem>
@@ -61,7 +63,7 @@ int run(int argc, char** argv) {
     std::cout << (arguments.config.empty() ? "the defaults" : arguments.config.string()) << ": sound\n";
     return 0;
   }
-  run_service(options, arguments.config);
+  run_service(options, arguments.config, [&] { return options_of(arguments); });
   return 0;
 }
 
@@ -70,6 +72,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], edgepose::kTrainingChild) == 0) return edgepose::run_training_child();
+  // The matcher's threads are short-lived; with glibc's arena for each, memory would creep up for hours.
+  mallopt(M_ARENA_MAX, 2);
   try {
     return edgepose::run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -45,9 +45,11 @@ std::vector<ListeningSocket> control_sockets(const ServiceOptions& options) {
 /// The daemon's parts, in the order in which they depend on each other.
 class Service {
  public:
-  Service(const ServiceOptions& options, const std::filesystem::path& config)
+  Service(const ServiceOptions& options, const std::filesystem::path& config,
+          std::function<ServiceOptions()> read_again)
       : options_(options),
         config_(config),
+        read_again_(std::move(read_again)),
         address_(parse_udpm_url(options.lcm_url)),
         key_(key_of(options)),
         registry_(or_default(options.state_folder, default_state_folder)),
@@ -152,7 +154,7 @@ class Service {
   void reload() {
     sd_notify(0, "RELOADING=1");
     try {
-      ServiceOptions next = config_.empty() ? ServiceOptions{} : read_service_options(config_);
+      ServiceOptions next = read_again_();
       ServiceOptions current = *options_.get();
       keep_what_is_not_live(next, current);
       set_log_level(next.log_level);
@@ -189,6 +191,7 @@ class Service {
   Signals signals_;  // first: threads inherit what is blocked
   LiveOptions options_;
   const std::filesystem::path config_;
+  const std::function<ServiceOptions()> read_again_;
   const UdpmAddress address_;
   const std::optional<SecretKey> key_;
   Statistics statistics_;
@@ -207,9 +210,10 @@ class Service {
 
 }  // namespace
 
-void run_service(ServiceOptions options, const std::filesystem::path& config) {
+void run_service(const ServiceOptions& options, const std::filesystem::path& config,
+                 const std::function<ServiceOptions()>& read_again) {
   set_log_level(options.log_level);
-  Service service(options, config);
+  Service service(options, config, read_again);
   service.run();
 }
 

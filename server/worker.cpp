@@ -100,11 +100,13 @@ void Worker::answer(WaitingFrame&& frame) {
     edgepose_lcm::pose_estimates_t poses = to_poses(frame, answer);
     edgepose_lcm::drill_targets_t targets = to_drill_targets(frame, answer);
     const int64_t sent = publisher_.publish(poses, targets);
+    count(answer, statistics_.counters);
     if (sent == 0) {
       statistics_.counters.add("answers_not_sent");
       log_limited(LogLevel::kError, "answer_not_sent", "the system refused it", {});
+      last_ = std::move(frame.depth);
+      return;
     }
-    count(answer, statistics_.counters);
     statistics_.latency.add(1e-6 * static_cast<double>(sent - frame.depth.capture_utime));
     statistics_.service_time.add(1e-6 * static_cast<double>(sent - frame.receive_utime));
     log_event(LogLevel::kDebug, "frame_answered",
@@ -126,7 +128,10 @@ void Worker::do_jobs() {
     const std::scoped_lock lock(mutex_);
     jobs.swap(jobs_);
   }
-  for (const Job& job : jobs) job(last_ ? &*last_ : nullptr);
+  for (const Job& job : jobs) {
+    busy_since_ = steady_us();  // each for itself: a queue of sound jobs is not a worker that is stuck
+    job(last_ ? &*last_ : nullptr);
+  }
 }
 
 }  // namespace edgepose

@@ -13,6 +13,8 @@ std::filesystem::path default_control_socket() {
     return std::string(value == nullptr ? "" : value);
   };
   if (const std::string path = environment("EDGEPOSE_SOCKET"); !path.empty()) return path;
+  if (const std::string folder = environment("RUNTIME_DIRECTORY"); !folder.empty())
+    return std::filesystem::path(folder) / "control.sock";
   const std::filesystem::path system = "/run/edgepose/control.sock";
   std::error_code ignored;
   if (geteuid() == 0 || std::filesystem::exists(system, ignored)) return system;

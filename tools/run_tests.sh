@@ -2,8 +2,8 @@
 # Passes the tests on a bare Debian 12: installs what is missing, then runs every check that a change must pass.
 # Usage: tools/run_tests.sh [--quick | --long]
 #   --quick  release build and its tests only
-#   --long   every layer under every sanitizer and clang-tidy, each file for itself, and each fuzzer for a minute:
-#            about an hour
+#   --long   every layer under every sanitizer and clang-tidy, each file for itself, each fuzzer for a minute, and the
+#            installation on a bare Debian (debootstrap): an hour and a half
 # Without a switch: format, clang-tidy on the core, sanitizers on what takes foreign input and on the matcher,
 # release tests; 15 minutes or less on two cores, installation included.
 set -euo pipefail
@@ -55,7 +55,7 @@ run_threaded_sample() { # build directory
 
 step "set-up"
 bash tools/setup.sh test
-if [ "$mode" = --long ]; then bash tools/setup.sh fuzz; fi
+if [ "$mode" = --long ]; then bash tools/setup.sh fuzz deploy; fi
 
 if [ "$mode" != --quick ]; then
   step "format"
@@ -99,6 +99,8 @@ if [ "$mode" = --long ]; then
   step "fuzzers, a minute each"
   build fuzz
   bash tools/run_fuzzers.sh 60
+  step "installation on a bare Debian, the confined daemon, the unit under systemd"
+  bash tests/deploy/chroot_test.sh
 fi
 
 step "release tests"

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Installs what edgepose needs from Debian 12's own archive. Usage: tools/setup.sh [run|test|bench|fuzz]...
+# Installs what edgepose needs from Debian 12's own archive. Usage: tools/setup.sh [run|test|bench|fuzz|deploy]...
 #   run    build and use the program (default)
 #   test   run, and what the test command needs
 #   bench  run, and the peers it is compared with (PCL: 600 MB to fetch)
 #   fuzz   run, and clang's libFuzzer
+#   deploy run, and what makes a bare Debian in a folder
 # Does nothing, and needs no root, where everything is there already.
 set -euo pipefail
 
@@ -14,6 +15,7 @@ run=(g++ cmake ninja-build libeigen3-dev libopencv-dev libembree-dev libcli11-de
 test=(git iproute2 clang-format clang-tidy libgtest-dev libgmock-dev)
 bench=(libpcl-dev libopencv-contrib-dev libbenchmark-dev)
 fuzz=(clang)
+deploy=(debootstrap procps)
 
 packages=("${run[@]}")
 for part in "${@:-run}"; do
@@ -22,7 +24,8 @@ for part in "${@:-run}"; do
     test) packages+=("${test[@]}") ;;
     bench) packages+=("${bench[@]}") ;;
     fuzz) packages+=("${fuzz[@]}") ;;
-    *) echo "setup.sh: unknown part '$part': expected run, test, bench or fuzz" >&2; exit 2 ;;
+    deploy) packages+=("${deploy[@]}") ;;
+    *) echo "setup.sh: unknown part '$part': expected run, test, bench, fuzz or deploy" >&2; exit 2 ;;
   esac
 done
 

@@ -91,7 +91,7 @@ void run_in_step(const Arguments& a, Peer& peer, Daemon& daemon, const std::vect
     if (answer)
       all.push_back(std::chrono::duration<double>(answer->received - peer.sent_at(sequence)).count());
     peer.forget();
-    const bool is_mark = i + 1 == 1000 || (i + 1) % 10000 == 0;
+    const bool is_mark = i + 1 == 1000 || i + 1 == 3000 || (i + 1) % 10000 == 0;
     if (!is_mark) continue;
     const double bytes = daemon.result("stats")["memory_bytes"].get<double>();
     if (i + 1 == 1000) after_1000 = bytes;

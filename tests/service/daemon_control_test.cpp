@@ -89,6 +89,9 @@ TEST_F(DaemonTest, HttpTellsHealthAndMetrics) {
 
 TEST_F(DaemonTest, TcpControlIsOnTheLoopback) {
   start("[service]\ncontrol_port = 9124\n");
+  EXPECT_EQ(http(9124, "POST / HTTP/1.1\r\n\r\n{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"shutdown\"}\n"), "")
+      << "what a web page may send";
+  EXPECT_TRUE(daemon_->result("status")["ready"]);
   EXPECT_THAT(http(9124, "{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"shutdown\"}\n"),
               testing::HasSubstr("stopping"));
   EXPECT_EQ(daemon_->process().wait(5), 0);
