@@ -17,7 +17,7 @@ constexpr uint64_t kMaxPackingRatio = 1040;
 constexpr const char* kExpectedDepth = "a depth image (16-bit single-channel PNG)";
 constexpr const char* kRawDepth = "give the raw depth image, not a colour or preview image";
 
-png::Header checked_header(std::span<const std::byte> bytes, const std::string& name) {
+png::Header checked_header(std::span<const std::byte> bytes, const std::string& name, uint64_t max_pixels) {
   if (bytes.empty()) throw InputError::at(name, kExpectedDepth, "an empty file");
   const std::string foreign = png::foreign_format(bytes);
   if (!foreign.empty()) throw InputError::at(name, kExpectedDepth, foreign, kRawDepth);
@@ -28,9 +28,12 @@ png::Header checked_header(std::span<const std::byte> bytes, const std::string& 
     throw InputError::at(name, kExpectedDepth, png::describe(header), kRawDepth);
   const uint64_t pixels = uint64_t{header.width} * header.height;
   if (header.width == 0 || header.height == 0 || header.width > kMaxDepthSide ||
-      header.height > kMaxDepthSide || pixels > kMaxDepthPixels)
-    throw InputError::at(name, "a depth image of 1 to 16384 pixels a side and at most 64 megapixels",
-                         png::describe(header));
+      header.height > kMaxDepthSide || pixels > std::min(max_pixels, kMaxDepthPixels))
+    throw InputError::at(
+        name,
+        "a depth image of 1 to 16384 pixels a side and at most " +
+            number_text(1e-6 * static_cast<double>(std::min(max_pixels, kMaxDepthPixels)), 3) + " megapixels",
+        png::describe(header));
   if (2 * pixels > kMaxPackingRatio * bytes.size())
     throw InputError::at(name, png::describe(header),
                          "only " + std::to_string(bytes.size()) + " bytes, too few to hold them",
@@ -57,9 +60,10 @@ uint16_t quantised(float depth, double depth_scale, const std::string& name) {
 
 }  // namespace
 
-DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& name, double depth_scale) {
+DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& name, double depth_scale,
+                           uint64_t max_pixels) {
   check_scale(name, depth_scale);
-  const png::Header header = checked_header(bytes, name);
+  const png::Header header = checked_header(bytes, name, max_pixels);
   std::vector<uint8_t> pixels(size_t{2} * header.width * header.height);
   const std::string complaint = png::decode_grey16(bytes, header, pixels);
   if (!complaint.empty())
@@ -80,9 +84,9 @@ DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& 
   return image;
 }
 
-DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale) {
+DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale, uint64_t max_pixels) {
   const std::string bytes = read_whole_file(path, kExpectedDepth, kMaxDepthBytes);
-  return parse_depth_png(std::as_bytes(std::span(bytes)), path.string(), depth_scale);
+  return parse_depth_png(std::as_bytes(std::span(bytes)), path.string(), depth_scale, max_pixels);
 }
 
 void write_depth_png(const std::filesystem::path& path, const DepthImage& image, double depth_scale) {

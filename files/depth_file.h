@@ -18,11 +18,13 @@ inline constexpr double kMinDepthScale = 1e-7, kMaxDepthScale = 0.1;
 /// Reads a 16-bit single-channel PNG; 0 = no measurement. `depth_scale` in metres per unit (0.001 if the file
 /// holds millimetres). Throws InputError for anything else: another format, 8 bit, colour, truncated or
 /// damaged, absurd dimensions (found in the header, before anything is allocated), no measurement at all,
-/// and for a scale out of range.
-DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale);
+/// for more than `max_pixels`, and for a scale out of range.
+DepthImage read_depth_png(const std::filesystem::path& path, double depth_scale,
+                          uint64_t max_pixels = kMaxDepthPixels);
 
 /// The same from memory; `name` stands in messages.
-DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& name, double depth_scale);
+DepthImage parse_depth_png(std::span<const std::byte> bytes, const std::string& name, double depth_scale,
+                           uint64_t max_pixels = kMaxDepthPixels);
 
 /// A 16-bit PNG in memory, as write_depth_png() writes it; `name` stands in messages.
 std::vector<std::byte> encode_depth_png(const DepthImage& image, const std::string& name, double depth_scale);

@@ -11,7 +11,7 @@ using namespace edgepose_lcm;
 // Most that a message may hold: beyond any use, so that what is refused is an attack or a fault.
 constexpr int32_t kMaxName = 255, kMaxReason = 1023;
 constexpr int32_t kMaxDepthBytes = 32 << 20, kMaxCloudValues = 6'000'000;
-constexpr int32_t kMaxAnswers = 256, kMaxDetections = 256, kMaxEquivalents = 64;
+constexpr int32_t kMaxAnswers = 256, kMaxDetections = 256, kMaxEquivalents = 1024;
 constexpr int32_t kMaxTargets = 4096, kMaxCounters = 256;
 constexpr size_t kI64 = 8, kI32 = 4, kDouble = 8, kFlag = 1, kText = 5;  // kText: an empty string
 constexpr size_t kTransform = 7 * kDouble, kAuthentication = 2 * kI64 + 32;

@@ -66,7 +66,10 @@ void UdpmReceiver::run() {
   std::vector<std::byte> buffer(kMaxDatagram);
   std::array<pollfd, 2> waits = {{{socket_, POLLIN, 0}, {wake_, POLLIN, 0}}};
   while (true) {
-    if (poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR) return;
+    if (poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR) {
+      failed_ = true;
+      return;
+    }
     if (waits[1].revents != 0) return;
     if (waits[0].revents != 0) drain(buffer);
   }

@@ -36,6 +36,8 @@ class UdpmReceiver {
   /// [bytes] that the kernel granted; less than was asked if net.core.rmem_max forbids it.
   int receive_buffer_bytes() const { return receive_buffer_bytes_; }
   ReceiveCounters counters() const;  ///< from any thread
+  /// The system has refused to go on; nothing is received any more.
+  bool failed() const { return failed_; }
 
  private:
   void run();
@@ -48,6 +50,7 @@ class UdpmReceiver {
   UdpmAssembly assembly_;
   mutable std::mutex mutex_;
   ReceiveCounters counters_;  // guarded by mutex_
+  std::atomic<bool> failed_ = false;
   std::thread thread_;
 };
 

@@ -39,7 +39,7 @@ PlacedTarget place(const DrillTarget& planned, const Detection& detection,
       sigma_across(target.entry + target.depth * target.axis, target.axis, centre, covariance);
   const Eigen::Matrix3d turn = cross_matrix(target.axis);
   placed.angle_sigma = worst_sigma(turn * covariance.topLeftCorner<3, 3>() * turn.transpose());
-  placed.certain = covariance.trace() > 0 &&
+  placed.certain = covariance.allFinite() && covariance.trace() > 0 &&
                    2 * std::max(placed.entry_sigma, placed.bottom_sigma) <= target.position_tolerance &&
                    2 * placed.angle_sigma <= target.angle_tolerance;
   return placed;

@@ -7,6 +7,7 @@
 #include "files/number_text.h"
 #include "messaging/transform_message.h"
 #include "planning/placed_target.h"
+#include "planning/symmetry_doubt.h"
 
 namespace edgepose {
 namespace {
@@ -24,7 +25,7 @@ int8_t code_of(AnswerMode mode) {
   return model_answer_t::SKIPPED;
 }
 
-edgepose_lcm::detection_t detection_message(const Detection& detection, AnswerMode mode) {
+edgepose_lcm::detection_t detection_message(const Detection& detection) {
   edgepose_lcm::detection_t m{};
   m.camera_T_model = to_message(detection.camera_T_model);
   for (int row = 0; row < 6; ++row)
@@ -34,7 +35,7 @@ edgepose_lcm::detection_t detection_message(const Detection& detection, AnswerMo
   m.coverage = detection.coverage;
   m.violations = detection.violations;
   m.edge_score = detection.edge_score;
-  m.margin = mode == AnswerMode::kTracking ? 1 : detection.margin;
+  m.margin = detection.margin;
   for (const RigidTransform& pose : detection.equivalent) m.camera_T_equivalent.push_back(to_message(pose));
   m.equivalents = static_cast<int32_t>(m.camera_T_equivalent.size());
   return m;
@@ -52,8 +53,7 @@ edgepose_lcm::model_answer_t answer_message(const ModelAnswer& answer) {
   m.clustering_seconds = result.times.clustering;
   m.verification_seconds = result.times.verification;
   m.refinement_seconds = result.times.refinement;
-  for (const Detection& detection : result.detections)
-    m.detections.push_back(detection_message(detection, answer.mode));
+  for (const Detection& detection : result.detections) m.detections.push_back(detection_message(detection));
   m.detections_count = static_cast<int32_t>(m.detections.size());
   return m;
 }
@@ -61,9 +61,9 @@ edgepose_lcm::model_answer_t answer_message(const ModelAnswer& answer) {
 std::string millimetres(double metres) { return number_text(1e3 * metres, 3) + " mm"; }
 std::string degrees(double radians) { return number_text(radians * 180 / std::numbers::pi, 3) + " degrees"; }
 
-/// Empty if two standard deviations stay within what the plan allows.
-std::string doubt(const PlacedTarget& placed) {
-  if (placed.certain) return "";
+/// Why the hole must not be drilled, from what is known of this frame; empty: go.
+std::string doubt(const PlacedTarget& placed, const ModelAnswer& model, const FrameAnswer& answer,
+                  const TargetOptions& options) {
   const double sigma = std::max(placed.entry_sigma, placed.bottom_sigma);
   if (2 * sigma > placed.target.position_tolerance)
     return "position: two standard deviations are " + millimetres(2 * sigma) + ", the plan allows " +
@@ -71,10 +71,24 @@ std::string doubt(const PlacedTarget& placed) {
   if (2 * placed.angle_sigma > placed.target.angle_tolerance)
     return "angle: two standard deviations are " + degrees(2 * placed.angle_sigma) + ", the plan allows " +
            degrees(placed.target.angle_tolerance);
-  return "the pose's uncertainty is not known";
+  if (!placed.certain) return "the pose's uncertainty is not known";
+  if (answer.deadline_reached)
+    return "the deadline came before every model was looked for: another may explain this place better";
+  const double margin = model.result.detections[placed.instance].margin;
+  if (margin < options.min_margin)
+    return "a clearly different pose scores nearly as well: margin " + number_text(margin, 3) + ", wanted " +
+           number_text(options.min_margin, 3) + " (targets.min_margin)";
+  return "";
 }
 
-edgepose_lcm::drill_target_t target_message(const PlacedTarget& placed, const RegisteredModel& model) {
+/// ... and from the plan alone: the model's symmetries.
+std::string planning_doubt(const DrillTarget& planned, const RegisteredModel& model) {
+  if (!is_ambiguous(planned, *model.plan, model.model.symmetries())) return "";
+  return "the model looks the same in poses that put this hole elsewhere";
+}
+
+edgepose_lcm::drill_target_t target_message(const PlacedTarget& placed, const RegisteredModel& model,
+                                            const std::string& reason) {
   edgepose_lcm::drill_target_t m{};
   const DrillTarget& target = placed.target;
   m.model = model.name;
@@ -89,7 +103,7 @@ edgepose_lcm::drill_target_t target_message(const PlacedTarget& placed, const Re
   m.angle_sigma = placed.angle_sigma;
   m.position_tolerance = target.position_tolerance;
   m.angle_tolerance = target.angle_tolerance;
-  m.reason = doubt(placed);
+  m.reason = reason;
   m.go = m.reason.empty();
   return m;
 }
@@ -111,16 +125,24 @@ edgepose_lcm::pose_estimates_t to_poses(const WaitingFrame& frame, const FrameAn
   return m;
 }
 
-edgepose_lcm::drill_targets_t to_drill_targets(const WaitingFrame& frame, const FrameAnswer& answer) {
+edgepose_lcm::drill_targets_t to_drill_targets(const WaitingFrame& frame, const FrameAnswer& answer,
+                                               const TargetOptions& options, double age) {
   edgepose_lcm::drill_targets_t m{};
   m.capture_utime = frame.depth.capture_utime;
   m.sequence = frame.depth.sequence;
   m.camera = frame.depth.camera;
-  for (const ModelAnswer& model : answer.models) {
-    if (!model.model->plan) continue;
-    const auto placed =
-        place_targets(*model.model->plan, model.result.detections, model.model->model.centre());
-    for (const PlacedTarget& target : placed) m.targets.push_back(target_message(target, *model.model));
+  for (const ModelAnswer& found : answer.models) {
+    const RegisteredModel& model = *found.model;
+    if (!model.plan) continue;
+    const auto placed = place_targets(*model.plan, found.result.detections, model.model.centre());
+    for (size_t i = 0; i < placed.size(); ++i) {
+      // place_targets() gives the plan's holes in their order, for one instance after the other.
+      std::string reason = planning_doubt(model.plan->targets[i % model.plan->targets.size()], model);
+      if (reason.empty()) reason = doubt(placed[i], found, answer, options);
+      if (age > options.max_age)
+        reason = "the frame was taken " + number_text(age, 3) + " s ago (frames.max_age)";
+      m.targets.push_back(target_message(placed[i], model, reason));
+    }
   }
   m.targets_count = static_cast<int32_t>(m.targets.size());
   return m;

@@ -1,6 +1,8 @@
 #include "server/answer_publisher.h"
 
+#include "messaging/checked_decode.h"
 #include "server/clock.h"
+#include "server/log.h"
 
 namespace edgepose {
 
@@ -24,6 +26,11 @@ bool AnswerPublisher::publish_status(edgepose_lcm::service_status_t& status) {
 template <class Message>
 bool AnswerPublisher::send(const std::string& channel, const Message& message) {
   std::vector<std::byte> bytes = encode(message);
+  // What our own receivers would refuse is not sent.
+  if (const std::string fault = check_lengths(bytes, &message); !fault.empty()) {
+    log_limited(LogLevel::kError, "answer_not_sent", channel, {{"reason", fault}});
+    return false;
+  }
   if (signer_) signer_->sign(channel, bytes);
   return publisher_.publish(channel, bytes);
 }

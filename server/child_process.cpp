@@ -14,10 +14,12 @@
 #include <cerrno>
 #include <chrono>
 #include <system_error>
+#include <thread>
 
 namespace edgepose {
 namespace {
 
+using Time = std::chrono::steady_clock::time_point;
 constexpr size_t kMaxPrinted = 256 << 10;
 constexpr int kTick = 50;  // [ms]
 // A tenth of the weight of the matching: it is hardly delayed, and training still ends when all cores are
@@ -90,7 +92,9 @@ void limit(int what, rlim_t value) {
         write(score, "1000", 4);  // should memory run out, this one goes first
   }
   syscall(SYS_close_range, 3u, ~0u, 0u);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
   if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
+#endif
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, kMaxFile);
   setpriority(PRIO_PROCESS, 0, kNiceness);
@@ -108,14 +112,18 @@ bool read_some(int descriptor, std::string& text) {
   return got > 0;
 }
 
+/// Whether the child must end now; `result` says why.
+bool is_over(const ChildLimits& limits, Time last, ChildEnd& result) {
+  result.timed_out = result.timed_out || Time::clock::now() >= last;
+  result.stopped = result.stopped || (limits.stop != nullptr && *limits.stop);
+  return result.timed_out || result.stopped;
+}
+
 /// Until both streams have ended, the time is over, or it is told to stop.
-void read_all(int out, int err, const ChildLimits& limits, ChildEnd& result) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limits.seconds);
+void read_all(int out, int err, const ChildLimits& limits, Time last, ChildEnd& result) {
   std::array<pollfd, 2> waits = {{{out, POLLIN, 0}, {err, POLLIN, 0}}};
   while (waits[0].fd >= 0 || waits[1].fd >= 0) {
-    result.timed_out = std::chrono::steady_clock::now() >= end;
-    result.stopped = limits.stop != nullptr && *limits.stop;
-    if (result.timed_out || result.stopped) return;
+    if (is_over(limits, last, result)) return;
     if (poll(waits.data(), waits.size(), kTick) < 0 && errno != EINTR) return;
     if (waits[0].revents != 0 && !read_some(out, result.out)) waits[0].fd = -1;
     if (waits[1].revents != 0 && !read_some(err, result.err)) waits[1].fd = -1;
@@ -141,11 +149,17 @@ ChildEnd run_self(const std::vector<std::string>& arguments, const std::string& 
   err.write.reset();
 
   ChildEnd end;
-  read_all(out.read.get(), err.read.get(), limits, end);
-  if (end.timed_out || end.stopped) kill(child, SIGKILL);
+  const Time last = Time::clock::now() +
+                    std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(limits.seconds));
+  read_all(out.read.get(), err.read.get(), limits, last, end);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  pid_t ended = 0;
+  // It may have closed its streams and go on.
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+    if (is_over(limits, last, end)) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  if (ended < 0) fail("waitpid");
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;

@@ -44,7 +44,7 @@ std::optional<std::string> Control::handle(
     parts_.statistics.counters.add("requests_failed");
     log_limited(LogLevel::kWarning, "request_failed", std::to_string(static_cast<int>(code)),
                 {{"method", request.method}, {"reason", message}});
-    return error_line(request.id, code, message);
+    return request.is_notification ? std::string() : error_line(request.id, code, message);
   };
   try {
     parts_.statistics.counters.add("requests");
@@ -56,10 +56,12 @@ std::optional<std::string> Control::handle(
       throw RpcError(RpcCode::kNoMethod, "method: none is called '" + request.method + "'; did you mean " +
                                              nearest_word(request.method, known) + "?");
     }
-    const Reply reply = (this->*method->second)(
-        {request, [later, client](std::string text) { later(client, std::move(text)); }});
+    const bool is_silent = request.is_notification;
+    const Reply reply = (this->*method->second)({request, [later, client, is_silent](std::string text) {
+                                                   later(client, is_silent ? std::string() : std::move(text));
+                                                 }});
     if (!reply) return std::nullopt;
-    return result_line(request.id, *reply);
+    return is_silent ? std::string() : result_line(request.id, *reply);
   } catch (const RpcError& error) {
     return fail(error.code, error.what());
   } catch (const InputError& error) {
@@ -90,6 +92,9 @@ RpcRequest Control::open(const std::string& line) {
 }
 
 void Control::no_model(const std::string& name) const {
+  for (const BrokenModel& model : parts_.registry.broken())
+    if (model.entry.name == name)
+      throw RpcError(RpcCode::kNoModel, "models: '" + name + "' cannot be loaded: " + model.fault);
   const std::vector<std::string> known = parts_.registry.names();
   throw RpcError(
       RpcCode::kNoModel,

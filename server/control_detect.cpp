@@ -1,10 +1,14 @@
 /// The command `detect`: one image, between the frames.
+#include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "common/error.h"
 #include "common/naming.h"
 #include "files/camera_file.h"
 #include "files/depth_file.h"
+#include "matcher/stopwatch.h"
 #include "reporting/match_json.h"
 #include "server/control.h"
 #include "server/json_text.h"
@@ -15,15 +19,19 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kMaxSeconds = 10;  // frames wait meanwhile
+
 struct DetectOrder {
   std::string scene;  ///< file, or camera and number of the frame
+  std::string intrinsics;
+  std::optional<double> depth_scale;
   DepthImage image;
   Camera camera;
   ModelList models;
 };
 
-/// The image that the request names; empty if it is the last frame that is meant.
-DetectOrder read_order(const Params& params) {
+/// What the request names; without a scene it is the last frame that is meant.
+DetectOrder order_of(const Params& params) {
   DetectOrder order;
   if (!params.has("depth")) {
     if (params.has("intrinsics") || params.has("depth_scale"))
@@ -32,20 +40,35 @@ DetectOrder read_order(const Params& params) {
     return order;
   }
   order.scene = params.path("depth");
-  const CameraFile camera = read_camera(params.text("intrinsics"));
-  order.camera = camera.camera;
-  order.image = read_depth_png(order.scene, params.number("depth_scale", camera.depth_scale));
+  order.intrinsics = params.text("intrinsics");
+  if (params.has("depth_scale")) order.depth_scale = params.number("depth_scale", 0);
   return order;
 }
 
-json match_all(const DetectOrder& order, const Settings& settings) {
+/// Reads its image. Throws InputError.
+void read_image(DetectOrder& order, int max_pixels) {
+  const CameraFile camera = read_camera(order.intrinsics);
+  order.camera = camera.camera;
+  order.image = read_depth_png(order.scene, order.depth_scale.value_or(camera.depth_scale),
+                               static_cast<uint64_t>(max_pixels));
+}
+
+/// At most kMaxSeconds for all models, and no longer than `goes_on`.
+json match_all(const DetectOrder& order, const Settings& settings, const std::function<bool()>& goes_on) {
   return naming(order.scene, [&] {
     const Scene scene = prepare_scene(order.image, order.camera, settings.scene);
     std::vector<const Model*> models;
     std::vector<MatchResult> results;
+    Stopwatch watch;
     for (const ModelHandle& model : order.models) {
+      MatchOptions options = settings.match;
+      options.max_seconds = kMaxSeconds - watch.total();
+      if (options.max_seconds <= 0 || !goes_on())
+        throw InputError::at(
+            "detect", "all models within " + std::to_string(static_cast<int>(kMaxSeconds)) + " s",
+            goes_on() ? "more to do" : "the daemon stopping", "ask for fewer models at once");
       models.push_back(&model->model);
-      results.push_back(match(scene, model->model, settings.match));
+      results.push_back(match(scene, model->model, options));
     }
     resolve_conflicts(scene, models, settings.match, results);
     json found = json::array();
@@ -65,7 +88,6 @@ json match_all(const DetectOrder& order, const Settings& settings) {
 }
 
 void take_frame(DetectOrder& order, const DepthFrame* last) {
-  if (!order.scene.empty()) return;
   if (last == nullptr) throw RpcError(RpcCode::kNoFrame, "detect: no frame has come yet");
   order.scene = last->camera + " " + std::to_string(last->sequence);
   order.image = last->image;
@@ -76,20 +98,25 @@ void take_frame(DetectOrder& order, const DepthFrame* last) {
 
 Control::Reply Control::detect(const Call& call) {
   const Params params(call.request.params, {"models", "depth", "intrinsics", "depth_scale"});
-  auto order = std::make_shared<DetectOrder>(read_order(params));
+  auto order = std::make_shared<DetectOrder>(order_of(params));
   if (params.has("models")) {
+    std::set<std::string> seen;
     for (const std::string& name : params.texts("models")) {
+      if (!seen.insert(name).second)
+        throw RpcError(RpcCode::kBadParams,
+                       "params.models: expected each name once, found '" + name + "' again");
       order->models.push_back(parts_.registry.find(name));
       if (order->models.back() == nullptr) no_model(name);
     }
   } else {
     order->models = parts_.registry.active();
   }
-  const auto work = [order, id = call.request.id, finish = call.finish,
-                     options = parts_.options.get()](const DepthFrame* last) {
+  const auto work = [order, id = call.request.id, finish = call.finish, options = parts_.options.get(),
+                     &worker = parts_.worker](const DepthFrame* last) {
     try {
-      take_frame(*order, last);
-      finish(result_line(id, text_of(match_all(*order, options->matcher))));
+      order->scene.empty() ? take_frame(*order, last) : read_image(*order, options->frames.max_pixels);
+      finish(result_line(
+          id, text_of(match_all(*order, options->matcher, [&worker] { return !worker.stopping(); }))));
     } catch (const RpcError& error) {
       finish(error_line(id, error.code, error.what()));
     } catch (const std::exception& error) {

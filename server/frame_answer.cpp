@@ -1,6 +1,7 @@
 #include "server/frame_answer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "matcher/stopwatch.h"
@@ -23,7 +24,10 @@ bool any_accepted(const MatchResult& result) {
 class FrameAnswerer::Frame {
  public:
   Frame(Tracker& tracker, const DepthFrame& frame, const AnswerOptions& options)
-      : tracker_(tracker), frame_(frame), options_(options) {}
+      : tracker_(tracker),
+        frame_(frame),
+        mark_{frame.camera, frame.sequence, frame.capture_utime},
+        options_(options) {}
 
   FrameAnswer take(const ModelList& models, size_t first) {
     for (const ModelHandle& model : models) answer_.models.push_back({model, AnswerMode::kSkipped, {}});
@@ -35,14 +39,13 @@ class FrameAnswerer::Frame {
     resolve();
     for (const ModelAnswer& model : answer_.models)
       if (model.mode != AnswerMode::kSkipped)
-        tracker_.remember(frame_.camera, *model.model, frame_.sequence, model.result,
-                          model.mode == AnswerMode::kDetection);
+        tracker_.remember(*model.model, mark_, model.result, model.mode == AnswerMode::kDetection);
     return std::move(answer_);
   }
 
  private:
   const Tracker::Memory* memory(const ModelAnswer& model) const {
-    return tracker_.find(frame_.camera, *model.model, frame_.sequence, options_.tracking);
+    return tracker_.find(*model.model, mark_, options_.tracking);
   }
 
   /// Looks where the models were: in a part of the image, if that is all that has to be looked at.
@@ -67,9 +70,23 @@ class FrameAnswerer::Frame {
       if (known == nullptr) continue;
       model.result = track(*scene, model.model->model, known->instances, options_.match);
       model.mode = AnswerMode::kTracking;
+      take_margins(*known, model);
       if (all_accepted(model.result, known->instances.size())) continue;
       ++answer_.tracks_lost;
       if (!any_accepted(model.result)) model.mode = AnswerMode::kSkipped;
+    }
+  }
+
+  /// Following looks at no rivals: what was known of them when it was detected goes on to hold.
+  static void take_margins(const Tracker::Memory& known, ModelAnswer& model) {
+    const Eigen::Vector3d centre = model.model->model.centre();
+    for (Detection& detection : model.result.detections) {
+      const Eigen::Vector3d here = detection.camera_T_model * centre;
+      double nearest = INFINITY;
+      for (size_t i = 0; i < known.instances.size(); ++i) {
+        const double away = (known.instances[i].camera_T_model * centre - here).norm();
+        if (away < nearest) nearest = away, detection.margin = known.margins[i];
+      }
     }
   }
 
@@ -79,8 +96,8 @@ class FrameAnswerer::Frame {
     return Tracker::is_due(*known, options_.tracking) || !all_accepted(model.result, known->instances.size());
   }
 
-  /// Searches the whole image; what was followed well stays if the search finds nothing as good.
-  /// The first model always gets its chance.
+  /// Searches the whole image. What it does not find is gone, however well it could be followed, unless the
+  /// time was over too early. The first model always gets half of the deadline.
   void detect(ModelAnswer& model) {
     if (options_.deadline > 0 && watch_.total() >= options_.deadline && searched_ > 0) {
       answer_.deadline_reached = true;
@@ -97,15 +114,16 @@ class FrameAnswerer::Frame {
     }
     MatchOptions options = options_.match;
     if (options_.deadline > 0) {
-      const double left = std::max(options_.deadline - watch_.total(), 1e-3);
+      const double left =
+          std::max(options_.deadline - watch_.total(), searched_ == 0 ? options_.deadline / 2 : 1e-3);
       options.max_seconds = options.max_seconds > 0 ? std::min(options.max_seconds, left) : left;
     }
     ++searched_;
     MatchResult found = match(*scene, model.model->model, options);
     answer_.deadline_reached = answer_.deadline_reached || found.cut_short;
     const bool was_followed = model.mode == AnswerMode::kTracking;
-    if (was_followed && !any_accepted(found)) return;
-    answer_.tracks_corrected += was_followed && differs(model, found);
+    if (was_followed && found.cut_short && !any_accepted(found)) return;
+    answer_.tracks_corrected += was_followed && (!any_accepted(found) || differs(model, found));
     model.mode = AnswerMode::kDetection;
     model.result = std::move(found);
   }
@@ -153,6 +171,7 @@ class FrameAnswerer::Frame {
 
   Tracker& tracker_;
   const DepthFrame& frame_;
+  const FrameMark mark_;
   const AnswerOptions& options_;
   FrameAnswer answer_;
   std::optional<Scene> whole_, part_;

@@ -21,7 +21,9 @@ struct ModelAnswer {
 struct FrameAnswer {
   std::vector<ModelAnswer> models;  ///< in the models' order
   double preprocessing_seconds = 0;
-  bool deadline_reached = false;  ///< some search was cut short or left out
+  /// Some search was cut short or left out: what another model would have explained better may have been
+  /// accepted.
+  bool deadline_reached = false;
   int tracks_lost = 0, tracks_corrected = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "server/frame_intake.h"
 
+#include <new>
+
 #include "messaging/checked_decode.h"
 #include "server/answer_messages.h"
 #include "server/clock.h"
@@ -9,7 +11,11 @@ namespace edgepose {
 
 void FrameIntake::take(const ReceivedMessage& message) {
   if (message.channel == kDepthChannel) {
-    take_depth(message);
+    try {
+      take_depth(message);
+    } catch (const std::bad_alloc&) {
+      refuse("", "out_of_memory", "memory: expected enough for the frame, found less");
+    }
   } else if (message.channel != kPosesChannel && message.channel != kDrillTargetsChannel &&
              message.channel != kStatusChannel) {  // what the daemon itself says comes back to it
     counters_.add("messages_of_other_channels");
@@ -22,6 +28,13 @@ void FrameIntake::take_depth(const ReceivedMessage& message) {
   edgepose_lcm::depth_frame_t encoded;
   if (const std::string fault = decode_checked(message.data(), encoded); !fault.empty())
     return refuse("", "malformed", fault);
+  const FrameOptions options = options_();
+  const double pixels = static_cast<double>(encoded.width) * encoded.height;
+  if (pixels > options.max_pixels)
+    return refuse(judge_.skip(encoded.camera, encoded.sequence) ? encoded.camera : "", "too_many_pixels",
+                  "width x height: expected at most " + std::to_string(options.max_pixels) +
+                      " pixels (frames.max_pixels), found " + std::to_string(encoded.width) + " x " +
+                      std::to_string(encoded.height));
   DepthFrame frame;
   std::string detail;
   if (const FrameFault fault = unpack(encoded, frame, detail); fault != FrameFault::kNone) {
@@ -29,8 +42,7 @@ void FrameIntake::take_depth(const ReceivedMessage& message) {
     const bool is_known = judge_.skip(encoded.camera, encoded.sequence);
     return refuse(is_known ? encoded.camera : "", name(fault), detail);
   }
-  const FrameVerdict verdict =
-      judge_.judge(frame.camera, frame.sequence, frame.capture_utime, now, options_());
+  const FrameVerdict verdict = judge_.judge(frame.camera, frame.sequence, frame.capture_utime, now, options);
   if (!verdict.refusal.empty())
     return refuse(verdict.refusal == "too_many_cameras" ? "" : frame.camera, verdict.refusal, verdict.detail);
   if (verdict.lost > 0) {

@@ -13,7 +13,7 @@ inline constexpr const char* kDepthChannel = "EDGEPOSE_DEPTH";
 
 /// What every received message goes through, on the receiver's thread: channel, lengths, meaning, times. A
 /// sound depth frame ends in the mailbox; everything else is counted by cause ("frames_refused_CAUSE") and
-/// logged. Never throws but for lack of memory.
+/// logged. Never throws.
 class FrameIntake {
  public:
   /// `options`: what holds at the time of the call. All arguments must outlive the intake.

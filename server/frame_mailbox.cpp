@@ -30,11 +30,12 @@ void FrameMailbox::note_dropped(const std::string& camera, const std::string& ca
 std::optional<WaitingFrame> FrameMailbox::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return woken_ || longest_waiting() != nullptr; });
-  if (woken_) {
+  Slot* waiting = longest_waiting();
+  if (waiting == nullptr) {
     woken_ = false;
     return std::nullopt;
   }
-  Slot& next = *longest_waiting();
+  Slot& next = *waiting;
   WaitingFrame taken{std::move(*next.frame), next.receive_utime, std::move(next.dropped)};
   next.frame.reset();
   next.dropped.clear();

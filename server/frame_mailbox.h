@@ -25,10 +25,10 @@ class FrameMailbox {
   bool put(DepthFrame&& frame, int64_t receive_utime);
   /// Frames of `camera` that never come here.
   void note_dropped(const std::string& camera, const std::string& cause, int64_t count);
-  /// Waits for a frame or for wake(); cameras take turns, the one that waits longest first. Nothing after
-  /// wake().
+  /// Waits for a frame or for wake(); cameras take turns, the one that waits longest first. Nothing if woken
+  /// while no frame waits.
   std::optional<WaitingFrame> take();
-  /// Makes take() return at once, this time or, if nobody waits, the next.
+  /// Makes take() return, with a frame or without, this time or, if nobody waits, the next.
   void wake();
   /// Cameras that are remembered.
   size_t cameras() const;

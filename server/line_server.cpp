@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 #include "server/log.h"
@@ -65,7 +66,11 @@ void LineServer::run() {
       waits.push_back({client->descriptor(), static_cast<short>(events), 0});
       ids.push_back(id);
     }
-    if (poll(waits.data(), waits.size(), kTick) < 0 && errno != EINTR) return;
+    if (poll(waits.data(), waits.size(), kTick) < 0 && errno != EINTR) {
+      log_event(LogLevel::kError, "control_failed", {{"reason", std::strerror(errno)}});
+      failed_ = true;
+      return;
+    }
     eventfd_t ignored = 0;
     eventfd_read(wake_, &ignored);
     for (size_t i = 0; i < sockets_.size(); ++i)
@@ -81,7 +86,13 @@ void LineServer::run() {
 
 void LineServer::accept_from(const ListeningSocket& socket) {
   const int descriptor = accept4(socket.descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (descriptor < 0) return;
+  if (descriptor < 0) {
+    if (errno != EMFILE && errno != ENFILE) return;
+    // The client waits on; without a pause this would be asked again at once.
+    log_limited(LogLevel::kError, "client_turned_away", "no descriptors left", {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(kTick));
+    return;
+  }
   if (clients_.size() >= static_cast<size_t>(options_.max_clients)) {
     counters_.add("clients_turned_away");
     log_limited(LogLevel::kWarning, "client_turned_away", "too many clients",
@@ -113,7 +124,7 @@ void LineServer::work_on_lines(ClientId id, LineConnection& client) {
     if (client.over_tcp() && line->front() != '{') return drop(id, "what is no request");
     const std::optional<std::string> reply = handler_(id, *line);
     client.busy = !reply;
-    if (reply && !client.queue(*reply)) return drop(id, "answers that it does not take");
+    if (reply && !reply->empty() && !client.queue(*reply)) return drop(id, "answers that it does not take");
     if (!client.send()) return drop(id, "");
   }
   if (client.ended() && !client.busy && !client.wants_to_send() && !client.has_line()) drop(id, "");
@@ -130,7 +141,7 @@ void LineServer::take_answers() {
     if (client == clients_.end()) continue;
     client->second->busy = false;
     client->second->last_heard = Clock::now();
-    if (!client->second->queue(line)) {
+    if (!line.empty() && !client->second->queue(line)) {
       drop(id, "answers that it does not take");
     } else if (!client->second->send()) {
       drop(id, "");
@@ -142,10 +153,11 @@ void LineServer::take_answers() {
 
 /// Without a cause: the client has left by itself.
 void LineServer::drop(ClientId id, const std::string& cause) {
+  if (!cause.empty()) {
+    counters_.add("clients_cut_off");
+    log_limited(LogLevel::kWarning, "client_cut_off", cause, {});
+  }
   clients_.erase(id);
-  if (cause.empty()) return;
-  counters_.add("clients_cut_off");
-  log_limited(LogLevel::kWarning, "client_cut_off", cause, {});
 }
 
 void LineServer::drop_silent() {

@@ -25,8 +25,8 @@ struct LineServerOptions {
 class LineServer {
  public:
   using ClientId = uint64_t;
-  /// Called on the server's thread, must be quick: gives the answer at once, or keeps `client` and calls
-  /// answer() later, from any thread. Must not throw.
+  /// Called on the server's thread, must be quick: gives the answer at once (empty: none is sent), or keeps
+  /// `client` and calls answer() later, from any thread. Must not throw.
   using Handler = std::function<std::optional<std::string>(ClientId client, const std::string& line)>;
 
   LineServer(std::vector<ListeningSocket> sockets, Handler handler, Counters& counters,
@@ -40,6 +40,8 @@ class LineServer {
   /// Takes no more requests; answers that are being made are still sent, for at most a second. Afterwards
   /// answer() does nothing.
   void stop();
+  /// The system has refused to go on; nobody is served any more.
+  bool failed() const { return failed_; }
 
   /// The answer to a request that the handler kept; dropped if the client has gone.
   void answer(ClientId client, std::string line);
@@ -61,7 +63,7 @@ class LineServer {
   std::map<ClientId, std::unique_ptr<LineConnection>> clients_;
   ClientId next_id_ = 1;
   int wake_ = -1;
-  std::atomic<bool> stopping_ = false;
+  std::atomic<bool> stopping_ = false, failed_ = false;
   std::mutex mutex_;
   std::vector<std::pair<ClientId, std::string>> answers_;  // guarded by mutex_
   std::thread thread_;

@@ -12,6 +12,7 @@ namespace edgepose {
 namespace {
 
 constexpr std::chrono::seconds kPause{10};
+constexpr size_t kMaxValue = 500;   // what comes from outside may be long
 constexpr size_t kMaxCauses = 256;  // causes are the program's own words; a limit all the same
 
 spdlog::logger& logger() {
@@ -42,9 +43,10 @@ std::string quoted(const std::string& value) {
   const auto is_plain = [](unsigned char c) {
     return c > ' ' && c < 0x7f && c != '"' && c != '=' && c != '\\';
   };
-  if (!value.empty() && std::all_of(value.begin(), value.end(), is_plain)) return value;
+  if (!value.empty() && value.size() <= kMaxValue && std::all_of(value.begin(), value.end(), is_plain))
+    return value;
   std::string text = "\"";
-  for (const unsigned char c : value) {
+  for (const unsigned char c : value.substr(0, kMaxValue)) {
     if (c == '"' || c == '\\') text += '\\';
     text += c < ' ' || c == 0x7f ? ' ' : static_cast<char>(c);
   }

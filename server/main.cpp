@@ -35,8 +35,8 @@ ServiceOptions options_of(const Arguments& arguments) {
   ServiceOptions options =
       arguments.config.empty() ? ServiceOptions{} : read_service_options(arguments.config);
   if (!arguments.lcm_url.empty()) options.lcm_url = arguments.lcm_url;
-  if (!arguments.state.empty()) options.state_folder = std::filesystem::absolute(arguments.state);
-  if (!arguments.socket.empty()) options.control_socket = std::filesystem::absolute(arguments.socket);
+  if (!arguments.state.empty()) options.state_folder = arguments.state;
+  if (!arguments.socket.empty()) options.control_socket = arguments.socket;
   options.check("options");
   return options;
 }
@@ -58,6 +58,10 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);
     throw InputError(std::string(error.what()) + " (edgeposed --help shows the options)");
   }
+  // Once: a daemon outlives the folder that it was started in.
+  for (std::string* path : {&arguments.state, &arguments.socket})
+    if (!path->empty()) *path = std::filesystem::absolute(*path);
+  if (!arguments.config.empty()) arguments.config = std::filesystem::absolute(arguments.config);
   const ServiceOptions options = options_of(arguments);
   if (arguments.check_only) {
     std::cout << (arguments.config.empty() ? "the defaults" : arguments.config.string()) << ": sound\n";

@@ -19,8 +19,8 @@ MemoryUse memory_use() {
     status.ignore(1024, '\n');
   }
   std::error_code ignored;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", ignored))
-    ++use.open_files;
+  std::filesystem::directory_iterator file("/proc/self/fd", ignored);
+  for (; file != std::filesystem::directory_iterator(); file.increment(ignored)) ++use.open_files;
   return use;
 }
 

@@ -1,5 +1,7 @@
 #include "server/registrar.h"
 
+#include <algorithm>
+
 #include "server/log.h"
 #include "server/training.h"
 
@@ -60,7 +62,8 @@ void Registrar::work_on(const Order& order) {
   ModelHandle model;
   std::exception_ptr failure;
   try {
-    if (!order.replace && registry_.find(name) != nullptr)
+    const std::vector<std::string> taken = registry_.names();
+    if (!order.replace && std::find(taken.begin(), taken.end(), name) != taken.end())
       throw NameTaken("name: '" + name + "' is registered already; unregister it first, or set replace");
     const auto options = options_.get();
     result = train_in_child(order.request, registry_.incoming(), options->matcher.train, options->training,

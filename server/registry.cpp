@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr size_t kMaxModels = 200;  // as many answers as fit into a message, and some
+
 ManifestEntry entry_of(const RegisteredModel& m) {
   return {m.name, m.file, m.plan_file, m.mesh, m.active, m.registered_utime};
 }
@@ -36,6 +38,14 @@ void make_folder(const fs::path& folder) {
   if (failure)
     throw InputError::at(folder.string(), "a folder that the daemon may write (service.state_folder)",
                          failure.message());
+}
+
+/// The renames in it are on the disk from then on.
+void flush_folder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && fsync(descriptor) == 0;
+  if (descriptor >= 0) close(descriptor);
+  if (!flushed) throw InputError::at(folder.string(), "a folder that can be flushed", std::strerror(errno));
 }
 
 /// Held as long as the process lives.
@@ -96,6 +106,7 @@ ModelHandle Registry::find(const std::string& name) const {
 std::vector<std::string> Registry::names() const {
   std::vector<std::string> names;
   for (const ModelHandle& model : all()) names.push_back(model->name);
+  for (const BrokenModel& model : broken()) names.push_back(model.entry.name);
   return names;
 }
 
@@ -109,30 +120,39 @@ ModelHandle Registry::add(const PreparedModel& prepared) {
       prepared.name + "-" + hex(model.view().header->checksum) + "-" + std::to_string(now);
   ManifestEntry entry{prepared.name, stem + ".model", prepared.plan.empty() ? "" : stem + ".plan.json",
                       prepared.mesh, prepared.active, now};
-  fs::rename(prepared.model, folder_ / entry.file);
-  if (!prepared.plan.empty()) fs::rename(prepared.plan, folder_ / entry.plan_file);
-  const ModelHandle added = load(entry);
-  ModelList next = all();
-  std::erase_if(next, [&](const ModelHandle& known) { return known->name == entry.name; });
-  next.push_back(added);
-  {
-    const std::scoped_lock lock(mutex_);
-    std::erase_if(broken_, [&](const BrokenModel& known) { return known.entry.name == entry.name; });
+  ModelHandle added;
+  try {
+    fs::rename(prepared.model, folder_ / entry.file);
+    if (!prepared.plan.empty()) fs::rename(prepared.plan, folder_ / entry.plan_file);
+    added = load(entry);
+    ModelList next = all();
+    std::vector<BrokenModel> next_broken = broken();
+    std::erase_if(next, [&](const ModelHandle& known) { return known->name == entry.name; });
+    std::erase_if(next_broken, [&](const BrokenModel& known) { return known.entry.name == entry.name; });
+    next.push_back(added);
+    if (next.size() + next_broken.size() > kMaxModels)
+      throw InputError::at("models", "at most " + std::to_string(kMaxModels), "one more",
+                           "unregister another first");
+    store(std::move(next), std::move(next_broken));
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    for (const fs::path& file :
+         {fs::path(prepared.model), prepared.plan, folder_ / entry.file, folder_ / entry.plan_file})
+      if (fs::is_regular_file(file, ignored)) fs::remove(file, ignored);
+    throw InputError(error.what());
   }
-  store(std::move(next));
   return added;
 }
 
 bool Registry::remove(const std::string& name) {
   const std::scoped_lock change(change_);
   ModelList next = all();
-  size_t removed = std::erase_if(next, [&](const ModelHandle& known) { return known->name == name; });
-  {
-    const std::scoped_lock lock(mutex_);
-    removed += std::erase_if(broken_, [&](const BrokenModel& known) { return known.entry.name == name; });
-  }
+  std::vector<BrokenModel> next_broken = broken();
+  const size_t removed =
+      std::erase_if(next, [&](const ModelHandle& known) { return known->name == name; }) +
+      std::erase_if(next_broken, [&](const BrokenModel& known) { return known.entry.name == name; });
   if (removed == 0) return false;
-  store(std::move(next));
+  store(std::move(next), std::move(next_broken));
   return true;
 }
 
@@ -145,7 +165,7 @@ ModelHandle Registry::activate(const std::string& name, bool active) {
   auto changed = std::make_shared<RegisteredModel>(**known);
   changed->active = active;
   *known = changed;
-  store(std::move(next));
+  store(std::move(next), broken());
   return changed;
 }
 
@@ -178,15 +198,17 @@ ModelHandle Registry::load(const ManifestEntry& entry) const {
   return std::make_shared<const RegisteredModel>(std::move(loaded));
 }
 
-/// The disk first: what the registry says it knows survives a restart.
-void Registry::store(ModelList next) {
+/// The disk first: what the registry says it knows survives a restart, and a power cut.
+void Registry::store(ModelList next, std::vector<BrokenModel> next_broken) {
   std::vector<ManifestEntry> entries;
   for (const ModelHandle& model : next) entries.push_back(entry_of(*model));
-  for (const BrokenModel& model : broken()) entries.push_back(model.entry);
+  for (const BrokenModel& model : next_broken) entries.push_back(model.entry);
   write_manifest(folder_ / "registry.json", entries);
+  flush_folder(folder_);
   {
     const std::scoped_lock lock(mutex_);
     models_ = std::move(next);
+    broken_ = std::move(next_broken);
   }
   remove_orphans();
 }

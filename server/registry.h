@@ -40,7 +40,7 @@ class Registry {
   ModelList active() const;
   std::vector<BrokenModel> broken() const;
   ModelHandle find(const std::string& name) const;  ///< nullptr: no such model
-  std::vector<std::string> names() const;
+  std::vector<std::string> names() const;           ///< of broken ones too
 
   /// Where files are prepared: the same file system, so that a rename moves them.
   std::filesystem::path incoming() const { return folder_ / "incoming"; }
@@ -54,7 +54,7 @@ class Registry {
  private:
   void load_all();
   ModelHandle load(const ManifestEntry& entry) const;
-  void store(ModelList next);
+  void store(ModelList next, std::vector<BrokenModel> next_broken);
   void remove_orphans() const;
 
   const std::filesystem::path folder_;

@@ -124,6 +124,8 @@ class Service {
   }
 
   void tick() {
+    if (receiver_.failed() || server_->failed())
+      throw InputError("service: the system refuses to wait for messages; ending");
     take_receiver_counters();
     edgepose_lcm::service_status_t status =
         status_message(statistics_, registry_, 1e-6 * static_cast<double>(utime_now() - start_utime_));
@@ -131,7 +133,9 @@ class Service {
     if (is_healthy()) sd_notify(0, "WATCHDOG=1");
   }
 
-  bool is_healthy() const { return worker_.stuck_for() < kStuck; }
+  bool is_healthy() const {
+    return worker_.stuck_for() < kStuck && !receiver_.failed() && !server_->failed();
+  }
 
   /// The receiver counts for itself; here is what has come since the last look.
   void take_receiver_counters() {
@@ -160,7 +164,7 @@ class Service {
       set_log_level(next.log_level);
       options_.set(std::move(next));
       log_event(LogLevel::kInfo, "reloaded", {{"config", config_.string()}});
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       log_event(LogLevel::kError, "reload_failed",
                 {{"reason", error.what()}, {"advice", "the old options stay"}});
     }
@@ -184,7 +188,8 @@ class Service {
       return {200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(statistics_, registry_)};
     if (path != "/healthz") return {404, "text/plain; charset=utf-8", "there is /healthz and /metrics\n"};
     if (is_healthy()) return {200, "text/plain; charset=utf-8", "ok\n"};
-    return {503, "text/plain; charset=utf-8", "a frame has been worked on for more than 30 s\n"};
+    return {503, "text/plain; charset=utf-8",
+            "a frame has been worked on for more than 30 s, or the network failed\n"};
   }
 
   const int64_t start_utime_ = utime_now();

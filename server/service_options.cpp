@@ -37,7 +37,8 @@ std::optional<std::string> environment(const char* name) {
 std::string FrameOptions::check() const {
   return first_fault({{"max_age", max_age, 0.001, 1e9},
                       {"max_ahead", max_ahead, 0, 1e9},
-                      {"max_cameras", static_cast<double>(max_cameras), 1, 64}});
+                      {"max_cameras", static_cast<double>(max_cameras), 1, 64},
+                      {"max_pixels", static_cast<double>(max_pixels), 256, 4096.0 * 4096.0}});
 }
 
 std::string TrackingOptions::check() const {
@@ -66,6 +67,10 @@ void ServiceOptions::check(const std::filesystem::path& file) const {
     demand("service", "log_level: expected debug, info, warning or error, found '" + log_level + "'");
   demand("frames", frames.check());
   demand("tracking", tracking.check());
+  demand("targets", first_fault({{"min_margin", min_margin, 0, 1}}));
+  if (matcher.match.verification != Verification::kFreeSpace)
+    demand("match",
+           "verification: expected free_space, as the others accept a pose in any image, found another");
   demand("training", training.check());
   try {
     parse_udpm_url(lcm_url);
@@ -90,10 +95,12 @@ std::vector<SettingKey> service_keys(ServiceOptions& options) {
       {"frames.max_age", &options.frames.max_age},
       {"frames.max_ahead", &options.frames.max_ahead},
       {"frames.max_cameras", &options.frames.max_cameras},
+      {"frames.max_pixels", &options.frames.max_pixels},
       {"tracking.enabled", &options.tracking.enabled},
       {"tracking.detect_every", &options.tracking.detect_every},
       {"tracking.max_gap", &options.tracking.max_gap},
       {"tracking.margin", &options.tracking.margin},
+      {"targets.min_margin", &options.min_margin},
       {"training.memory_mb", &options.training.memory_mb},
       {"training.seconds", &options.training.seconds},
       {"training.threads", &options.training.threads},

@@ -10,9 +10,10 @@ namespace edgepose {
 
 /// Which frames are looked at.
 struct FrameOptions {
-  double max_age = 1.0;     ///< [s] frames taken longer ago when they arrive are refused
-  double max_ahead = 0.05;  ///< [s] ... and frames that are to be taken in the future by more
-  int max_cameras = 8;      ///< cameras at once; one that is silent for ten seconds makes room
+  double max_age = 1.0;        ///< [s] frames taken longer ago when they arrive are refused
+  double max_ahead = 0.05;     ///< [s] ... and frames that are to be taken in the future by more
+  int max_cameras = 8;         ///< cameras at once; one that is silent for ten seconds makes room
+  int max_pixels = 4'200'000;  ///< of a frame; larger ones are refused. Memory grows with it
 
   std::string check() const;
 };
@@ -52,6 +53,8 @@ struct ServiceOptions {
   FrameOptions frames;
   TrackingOptions tracking;
   TrainingLimits training;
+  double min_margin =
+      0.1;  ///< [0, 1] targets.min_margin: with less over a clearly different pose, no hole is drilled
   Settings matcher;
 
   /// Throws InputError, led by `file`, that names the field that is out of range.

@@ -36,10 +36,10 @@ void demand_success(const ChildEnd& end, const TrainingRequest& request, const T
     throw TrainingFailure(what + ": training crashed (" + strsignal(end.signal) + "); the daemon goes on");
   if (end.exit_code == kCouldNotStart)
     throw TrainingFailure(what + ": the process that trains could not be started");
-  if (end.exit_code == 2 && end.err.find("out of memory") != std::string::npos)
+  if (end.exit_code == kOutOfMemory)
     throw TrainingFailure(what + ": training needs more than " + std::to_string(limits.memory_mb) +
                           " MB (training.memory_mb)");
-  if (end.exit_code != 0) throw InputError(last_line(end.err));
+  if (end.exit_code != 0) throw InputError(end.err.empty() ? what + ": training failed" : last_line(end.err));
 }
 
 }  // namespace

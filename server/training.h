@@ -24,6 +24,9 @@ TrainingResult train_in_child(const TrainingRequest& request, const std::filesys
 /// on stderr.
 int run_training_child();
 
+/// Its exit code when memory ran out.
+inline constexpr int kOutOfMemory = 3;
+
 /// The argument that makes this program a training child.
 inline constexpr const char* kTrainingChild = "--training-child";
 

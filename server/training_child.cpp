@@ -48,7 +48,7 @@ int run_training_child() {
     std::cout << to_text(report) << std::flush;
     return std::cout.good() ? 0 : 2;
   } catch (const std::bad_alloc&) {
-    std::cerr << "out of memory (training.memory_mb)\n";
+    return kOutOfMemory;
   } catch (const std::exception& error) {
     std::cerr << one_line(error.what()) << '\n';
   }

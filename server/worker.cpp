@@ -20,6 +20,11 @@ int64_t steady_us() {
       .count();
 }
 
+/// [s] since the frame was taken.
+double age_of(const WaitingFrame& frame) {
+  return 1e-6 * (static_cast<double>(utime_now()) - static_cast<double>(frame.depth.capture_utime));
+}
+
 /// Whether the whole image was searched for some model.
 bool has_detection(const FrameAnswer& answer) {
   return std::any_of(answer.models.begin(), answer.models.end(),
@@ -28,7 +33,11 @@ bool has_detection(const FrameAnswer& answer) {
 
 void count(const FrameAnswer& answer, Counters& counters) {
   counters.add("frames_answered");
-  if (answer.deadline_reached) counters.add("deadlines_reached");
+  if (answer.deadline_reached) {
+    counters.add("deadlines_reached");
+    log_limited(LogLevel::kWarning, "deadline_reached", "not every model was looked for in full",
+                {{"advice", "fewer active models, or a longer service.deadline"}});
+  }
   if (answer.tracks_lost > 0) counters.add("tracks_lost", static_cast<uint64_t>(answer.tracks_lost));
   if (answer.tracks_corrected > 0)
     counters.add("tracks_corrected", static_cast<uint64_t>(answer.tracks_corrected));
@@ -79,14 +88,27 @@ void Worker::run() {
     std::optional<WaitingFrame> frame = mailbox_.take();
     busy_since_ = steady_us();
     if (frame) answer(std::move(*frame));
-    if (!stopping_) do_jobs();
+    do_one_job();
     busy_since_ = 0;
   }
+}
+
+/// Waiting made it too old: as if it had come so late.
+bool Worker::is_expired(const WaitingFrame& frame, double max_age) {
+  if (age_of(frame) <= max_age) return false;
+  statistics_.counters.add("frames_refused_too_old");
+  for (const auto& [cause, count] : frame.dropped) mailbox_.note_dropped(frame.depth.camera, cause, count);
+  mailbox_.note_dropped(frame.depth.camera, "too_old", 1);
+  log_limited(
+      LogLevel::kWarning, "frame_refused", "too_old",
+      {{"camera", frame.depth.camera}, {"detail", "it has waited for the frames and commands before it"}});
+  return true;
 }
 
 void Worker::answer(WaitingFrame&& frame) {
   try {
     const auto options = options_.get();
+    if (is_expired(frame, options->frames.max_age)) return;
     statistics_.waiting.add(1e-6 * static_cast<double>(utime_now() - frame.receive_utime));
     Stopwatch watch;
     const FrameAnswer answer = answerer_.answer(
@@ -98,7 +120,8 @@ void Worker::answer(WaitingFrame&& frame) {
 
     statistics_.note_frame({frame.depth.camera, frame.depth.sequence, frame.depth.capture_utime});
     edgepose_lcm::pose_estimates_t poses = to_poses(frame, answer);
-    edgepose_lcm::drill_targets_t targets = to_drill_targets(frame, answer);
+    edgepose_lcm::drill_targets_t targets =
+        to_drill_targets(frame, answer, {options->min_margin, options->frames.max_age}, age_of(frame));
     const int64_t sent = publisher_.publish(poses, targets);
     count(answer, statistics_.counters);
     if (sent == 0) {
@@ -122,16 +145,20 @@ void Worker::answer(WaitingFrame&& frame) {
   last_ = std::move(frame.depth);
 }
 
-void Worker::do_jobs() {
-  std::vector<Job> jobs;
+/// One between two frames: whoever asks for more does not hold up the camera.
+void Worker::do_one_job() {
+  Job job;
+  bool more = false;
   {
     const std::scoped_lock lock(mutex_);
-    jobs.swap(jobs_);
+    if (jobs_.empty() || stopping_) return;
+    job = std::move(jobs_.front());
+    jobs_.pop_front();
+    more = !jobs_.empty();
   }
-  for (const Job& job : jobs) {
-    busy_since_ = steady_us();  // each for itself: a queue of sound jobs is not a worker that is stuck
-    job(last_ ? &*last_ : nullptr);
-  }
+  busy_since_ = steady_us();  // for itself: a queue of sound jobs is not a worker that is stuck
+  job(last_ ? &*last_ : nullptr);
+  if (more) mailbox_.wake();
 }
 
 }  // namespace edgepose

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -26,15 +27,17 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
   ~Worker();  ///< the frame at hand is finished; jobs that wait are not done
 
-  /// False if too many wait already.
+  /// False if too many wait already. One is done after each frame; it must look at stopping() and be bounded.
   bool post(Job job);
+  bool stopping() const { return stopping_; }
   /// [s] since the worker last showed that it goes on; small while idle.
   double stuck_for() const;
 
  private:
   void run();
   void answer(WaitingFrame&& frame);
-  void do_jobs();
+  void do_one_job();
+  bool is_expired(const WaitingFrame& frame, double max_age);
 
   FrameMailbox& mailbox_;
   const Registry& registry_;
@@ -46,7 +49,7 @@ class Worker {
   std::atomic<int64_t> busy_since_ = 0;  // [us] on the steady clock; 0 = idle
   std::atomic<bool> stopping_ = false;
   std::mutex mutex_;
-  std::vector<Job> jobs_;  // guarded by mutex_
+  std::deque<Job> jobs_;  // guarded by mutex_
   std::thread thread_;
 };
 

@@ -1,11 +1,27 @@
 #include "settings/control_address.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <string>
 
+#include "common/error.h"
+
 namespace edgepose {
+namespace {
+
+/// Anybody can make folders in /tmp: one that somebody else has made there is not talked to.
+std::filesystem::path own_folder(const std::filesystem::path& folder) {
+  struct stat state {};
+  if (lstat(folder.c_str(), &state) == 0 &&
+      (!S_ISDIR(state.st_mode) || state.st_uid != geteuid() || (state.st_mode & (S_IWGRP | S_IWOTH)) != 0))
+    throw InputError::at(folder.string(), "a folder that only its owner, the user, can write", "another",
+                         "set EDGEPOSE_SOCKET to a place of your own");
+  return folder;
+}
+
+}  // namespace
 
 std::filesystem::path default_control_socket() {
   const auto environment = [](const char* name) {
@@ -20,7 +36,7 @@ std::filesystem::path default_control_socket() {
   if (geteuid() == 0 || std::filesystem::exists(system, ignored)) return system;
   if (const std::string folder = environment("XDG_RUNTIME_DIR"); !folder.empty())
     return std::filesystem::path(folder) / "edgepose/control.sock";
-  return "/tmp/edgepose-" + std::to_string(geteuid()) + "/control.sock";
+  return own_folder("/tmp/edgepose-" + std::to_string(geteuid())) / "control.sock";
 }
 
 }  // namespace edgepose

@@ -165,9 +165,9 @@ void add_send_command(CLI::App& app) {
       ->check(check_camera_name, "");
   send->add_option("--encoding", command->encoding, "rvl (lossless compression, the default) or raw")
       ->transform(CLI::CheckedTransformer(std::map<std::string, DepthEncoding>{
-          {"rvl", DepthEncoding::kRvl}, {"raw", DepthEncoding::kRaw16}})
-                      .description("{rvl,raw}"))
-      ->type_name("");
+                                              {"rvl", DepthEncoding::kRvl}, {"raw", DepthEncoding::kRaw16}})
+                      .description(""))
+      ->type_name("rvl|raw");
   add_url_option(*send, command->url);
   send->add_flag("--wait", command->wait, "Send the next when the answer has come, so that none is dropped");
   send->add_option("--timeout", command->timeout, "[s] With --wait: how long for each answer (default 5)")

@@ -10,6 +10,8 @@ namespace {
 
 using namespace edgepose_lcm;
 
+constexpr double kMaxAhead = 1;  // [s] that clocks may differ
+
 bool is_sound(const detection_t& detection) {
   return from_message(detection.camera_T_model).has_value() && std::isfinite(detection.score) &&
          std::all_of(detection.camera_T_equivalent.begin(), detection.camera_T_equivalent.end(),
@@ -64,7 +66,9 @@ bool AnswerJudge::take_signed(const ReceivedMessage& message, int64_t now_utime,
       return refuse(fault);
   if (!decode_checked(message.data(), decoded).empty() || !is_sound(decoded)) return refuse("malformed");
   const double age = 1e-6 * (static_cast<double>(now_utime) - static_cast<double>(decoded.send_utime));
-  if (verifier_ && age > max_age_) return refuse("old");
+  const double taken = 1e-6 * (static_cast<double>(now_utime) - static_cast<double>(decoded.capture_utime));
+  if (verifier_ && (age > max_age_ || taken > max_age_)) return refuse("old");
+  if (verifier_ && age < -kMaxAhead) return refuse("from_the_future");
   return true;
 }
 

@@ -14,7 +14,8 @@ namespace edgepose {
 class AnswerJudge {
  public:
   /// Without a key nothing is verified: any program on the network may have sent what is taken then.
-  /// `max_age`: [s] since it was sent; older messages are refused if there is a key.
+  /// `max_age`: [s] since it was sent, and since the frame was taken; older
+  /// messages are refused if there is a key.
   AnswerJudge(const std::optional<SecretKey>& key, double max_age);
 
   /// Decodes it. False, and counted, if it is not to be believed: malformed, a number that is none, unsigned,

@@ -95,7 +95,10 @@ Comparison compare_logs(const AnswerLog& a, const AnswerLog& b) {
 }
 
 bool Comparison::nothing_missing() const {
-  return answers > 0 && only_a == 0 && only_b == 0 &&
+  // Two logs in which nothing was found are not equal but empty.
+  const bool any_pose =
+      std::any_of(models.begin(), models.end(), [](const auto& m) { return m.second.poses > 0; });
+  return answers > 0 && any_pose && only_a == 0 && only_b == 0 &&
          std::all_of(models.begin(), models.end(),
                      [](const auto& m) { return m.second.only_a == 0 && m.second.only_b == 0; });
 }

@@ -22,9 +22,11 @@ ReceivedMessage received(const std::string& channel, const std::vector<std::byte
   return message;
 }
 
-std::vector<std::byte> sent_at(int64_t utime) {
+/// `waited`: [us] between the frame and its answer.
+std::vector<std::byte> sent_at(int64_t utime, int64_t waited = 0) {
   auto answer = answer_with("camera", 1, 0.1);
   answer.send_utime = utime;
+  answer.capture_utime = utime - waited;
   return encode(answer);
 }
 
@@ -44,6 +46,19 @@ TEST(AnswerJudge, WithAKeyOnlyWhatItsHolderSentJustNow) {
   EXPECT_FALSE(judge.take(received(channels::kPoses, old), kNow, answer));
   EXPECT_THAT(judge.refused(),
               ElementsAre(Pair("altered", 1), Pair("old", 1), Pair("replayed", 1), Pair("unsigned", 1)));
+}
+
+TEST(AnswerJudge, AFreshAnswerToAnOldFrameIsOld) {
+  const SecretKey key = SecretKey::random();
+  MessageSigner signer(key, 1);
+  AnswerJudge judge(key, 5);
+  edgepose_lcm::pose_estimates_t answer;
+  auto stale = sent_at(kNow, 6'000'000), ahead = sent_at(kNow + 3'000'000);
+  signer.sign(channels::kPoses, stale);
+  signer.sign(channels::kPoses, ahead);
+  EXPECT_FALSE(judge.take(received(channels::kPoses, stale), kNow, answer));
+  EXPECT_FALSE(judge.take(received(channels::kPoses, ahead), kNow, answer));
+  EXPECT_THAT(judge.refused(), ElementsAre(Pair("from_the_future", 1), Pair("old", 1)));
 }
 
 TEST(AnswerJudge, WithoutAKeyWhateverIsSound) {

@@ -82,6 +82,11 @@ TEST(PoseComparison, EqualLogsAreEqualBitForBit) {
   EXPECT_EQ(result.models.at("part").bit_equal, 5u);
 }
 
+TEST(PoseComparison, NothingIsNotEqualToNothing) {
+  const auto empty = [] { return log({answer(1, {}), answer(2, {})}); };
+  EXPECT_FALSE(compare_logs(empty(), empty()).is_bit_equal());
+}
+
 TEST(PoseComparison, OneBitIsADifference) {
   auto b = run(900, 5);
   double& x = b[3].models["part"][0].sent.translation[0];

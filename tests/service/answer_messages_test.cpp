@@ -1,11 +1,15 @@
 #include "server/answer_messages.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 #include "files/mesh_file.h"
 #include "messaging/checked_decode.h"
 #include "messaging/lcm_publisher.h"
 #include "messaging/transform_message.h"
+#include "planning/symmetry_doubt.h"
 #include "tests/service/moving_scene.h"
 
 namespace edgepose {
@@ -31,6 +35,7 @@ Example example() {
   d.camera_T_model.linear() = Eigen::AngleAxisd(3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   d.accepted = true;
   d.score = 0.9;
+  d.margin = 0.5;
   d.covariance = 1e-8 * Eigen::Matrix<double, 6, 6>::Identity();
   MatchResult result;
   result.detections = {d};
@@ -84,6 +89,58 @@ TEST(AnswerMessages, DoubtIsNoGo) {
   for (const auto& target : to_drill_targets(e.frame, e.answer).targets) EXPECT_FALSE(target.go) << "unknown";
   e.answer.models[0].result.detections[0].accepted = false;
   EXPECT_TRUE(to_drill_targets(e.frame, e.answer).targets.empty());
+}
+
+/// The reason of the first hole, as it is published; empty: go.
+std::string reason_in(const Example& e, double age = 0) {
+  const auto m = to_drill_targets(e.frame, e.answer, {}, age);
+  EXPECT_EQ(m.targets.at(0).go, m.targets.at(0).reason.empty());
+  return m.targets.at(0).reason;
+}
+
+TEST(AnswerMessages, WhatWasNotLookedAtInFullIsNoGo) {
+  Example e = example();
+  EXPECT_EQ(reason_in(e), "");
+  EXPECT_THAT(reason_in(e, 1.5), testing::HasSubstr("frames.max_age"));
+  e.answer.deadline_reached = true;
+  EXPECT_THAT(reason_in(e), testing::HasSubstr("deadline"));
+}
+
+TEST(AnswerMessages, ARivalOfNearlyTheSameScoreIsNoGo) {
+  Example e = example();
+  e.answer.models[0].result.detections[0].margin = 0.05;
+  EXPECT_THAT(reason_in(e), testing::HasSubstr("targets.min_margin"));
+}
+
+/// A hole that a symmetry moves, and onto nothing of the plan, may be in either place.
+TEST(SymmetryDoubt, OfHolesThatASymmetryMoves) {
+  DrillPlan plan;
+  plan.targets.resize(1);
+  DrillTarget& hole = plan.targets[0];
+  hole.entry = {0.02, 0, 0.01};
+  hole.axis = {0, 0, -1};
+  hole.depth = 0.01;
+  hole.position_tolerance = 0.001;
+  hole.angle_tolerance = 0.02;
+  Symmetries half_turn;
+  half_turn.discrete.emplace_back(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  Symmetries round;
+  round.continuous.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()});
+  EXPECT_FALSE(is_ambiguous(hole, plan, {}));
+  EXPECT_TRUE(is_ambiguous(hole, plan, half_turn));
+  EXPECT_TRUE(is_ambiguous(hole, plan, round));
+
+  DrillPlan pair = plan;
+  pair.targets.push_back(hole);
+  pair.targets[1].entry.x() = -0.02;
+  EXPECT_FALSE(is_ambiguous(pair.targets[0], pair, half_turn)) << "the holes change places";
+  pair.targets[1].diameter = hole.diameter + 0.001;
+  EXPECT_TRUE(is_ambiguous(pair.targets[0], pair, half_turn)) << "but not if they differ";
+
+  DrillPlan middle = plan;
+  middle.targets[0].entry = {0, 0, 0.01};
+  EXPECT_FALSE(is_ambiguous(middle.targets[0], middle, half_turn));
+  EXPECT_FALSE(is_ambiguous(middle.targets[0], middle, round)) << "on the axis";
 }
 
 TEST(TransformMessage, WhatIsNoPoseIsRefused) {

@@ -45,7 +45,8 @@ class BadFrames : public DaemonTest {
 
 TEST_F(BadFrames, EachHasItsCounterAndItsLine) {
   expect_counted("unknown_encoding", [](auto& m) { m.encoding = 9; });
-  expect_counted("wrong_size", [](auto& m) { m.height = 100000; });
+  expect_counted("wrong_size", [](auto& m) { m.height = 5000; });
+  expect_counted("too_many_pixels", [](auto& m) { m.height = 100000; });
   expect_counted("wrong_checksum", [](auto& m) { m.checksum ^= 1; });
   expect_counted("from_the_future", [](auto& m) { m.capture_utime += 3'600'000'000; });
   expect_counted("too_old", [](auto& m) { m.capture_utime -= 3'600'000'000; });

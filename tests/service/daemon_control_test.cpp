@@ -1,10 +1,13 @@
 /// Commands, HTTP, signatures.
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
+#include <thread>
 
 #include "messaging/signed_command.h"
 #include "tests/service/daemon_fixture.h"
@@ -73,6 +76,40 @@ TEST_F(DaemonTest, NonsenseIsAnsweredOrCutOff) {
     EXPECT_TRUE(json::parse(ask(daemon_->socket(), line)).contains("error")) << line;
   EXPECT_EQ(ask(daemon_->socket(), std::string(200'000, 'x'), 5), "") << "cut off";
   EXPECT_TRUE(daemon_->result("status")["ready"]);
+}
+
+TEST_F(DaemonTest, NotificationsAreDoneAndNotAnswered) {
+  start();
+  register_phantom();
+  const std::string deactivate =
+      R"({"jsonrpc":"2.0","method":"models.activate","params":{"name":"phantom","active":false}})";
+  const std::string unknown = R"({"jsonrpc":"2.0","method":"nonsense"})";
+  const std::string detect = R"({"jsonrpc":"2.0","method":"detect"})";
+  const std::string last = R"({"jsonrpc":"2.0","id":7,"method":"status"})";
+  const json answer =
+      json::parse(ask(daemon_->socket(), deactivate + "\n" + unknown + "\n" + detect + "\n" + last));
+  EXPECT_EQ(answer["id"], 7) << answer;
+  EXPECT_EQ(answer["result"]["active_models"], 0);
+}
+
+/// Frames go on being answered while somebody asks for one detection after the other.
+TEST_F(DaemonTest, DetectCommandsDoNotHoldUpFrames) {
+  start();
+  register_phantom();
+  peer_->answer_to(peer_->send(scene()[0].depth));
+  const std::string detect = R"({"jsonrpc":"2.0","id":1,"method":"detect"})";
+  std::atomic<bool> over = false;
+  std::vector<std::jthread> clients;
+  for (int i = 0; i < 4; ++i)
+    clients.emplace_back([&] {
+      while (!over) ask(daemon_->socket(), detect);
+    });
+  for (size_t i = 1; i < scene().size(); ++i)
+    EXPECT_TRUE(pose_in(peer_->answer_to(peer_->send(scene()[i].depth)))) << i;
+  // The end is not held up either.
+  daemon_->process().signal(SIGTERM);
+  over = true;
+  EXPECT_EQ(daemon_->process().wait(5), 0);
 }
 
 TEST_F(DaemonTest, HttpTellsHealthAndMetrics) {

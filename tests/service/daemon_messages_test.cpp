@@ -2,7 +2,7 @@
 /// lcm-logplayer.
 #include <signal.h>
 
-#include <lcm/lcm-cpp.hpp>
+#include <lcm/lcm.h>
 
 #include "messaging/lcm_log.h"
 #include "tests/service/daemon_fixture.h"
@@ -62,24 +62,24 @@ TEST_F(DaemonTest, LcmLoggerHearsItAndLcmLogplayerFeedsIt) {
   EXPECT_GT(daemon_->counter("models_found"), 0);
 }
 
-/// The channels that liblcm subscribers see, in their own decoders.
+/// What a program hears that knows liblcm only.
 TEST_F(DaemonTest, LiblcmSubscribersHearStatus) {
   start();
-  lcm::LCM listener(kDefaultLcmUrl);
-  ASSERT_TRUE(listener.good());
-  struct Handler {
-    void on_status(const lcm::ReceiveBuffer*, const std::string&, const edgepose_lcm::service_status_t* m) {
-      status = *m;
-    }
-    std::optional<edgepose_lcm::service_status_t> status;
-  } handler;
-  listener.subscribe("EDGEPOSE_STATUS", &Handler::on_status, &handler);
+  const std::unique_ptr<lcm_t, void (*)(lcm_t*)> listener(lcm_create(kDefaultLcmUrl), lcm_destroy);
+  ASSERT_TRUE(listener);
+  std::optional<edgepose_lcm::service_status_t> status;
+  const auto take = [](const lcm_recv_buf_t* message, const char*, void* into) {
+    edgepose_lcm::service_status_t decoded;
+    if (decoded.decode(message->data, 0, static_cast<int>(message->data_size)) > 0)
+      *static_cast<std::optional<edgepose_lcm::service_status_t>*>(into) = decoded;
+  };
+  ASSERT_TRUE(lcm_subscribe(listener.get(), "EDGEPOSE_STATUS", take, &status));
   ASSERT_TRUE(eventually([&] {
-    listener.handleTimeout(100);
-    return handler.status.has_value();
+    lcm_handle_timeout(listener.get(), 100);
+    return status.has_value();
   }));
-  EXPECT_FALSE(handler.status->version.empty());
-  EXPECT_GT(handler.status->uptime, 0);
+  EXPECT_FALSE(status->version.empty());
+  EXPECT_GT(status->uptime, 0);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(ServiceDocumentation, ExplainsEveryEvent) {
   const auto events = named(R"rx(log_(?:event|limited)\(\s*LogLevel::\w+,\s*"([a-z_]+)")rx");
   EXPECT_GE(events.size(), 15u);
   for (const std::string& event : events)
-    EXPECT_THAT(document, testing::HasSubstr("\n| `" + event + "` | ")) << event;
+    EXPECT_NE(document.find("\n| `" + event + "` | "), std::string::npos) << event;
 }
 
 TEST(ServiceDocumentation, ExplainsEveryCounter) {
@@ -44,9 +44,10 @@ TEST(ServiceDocumentation, ExplainsEveryCounter) {
   counters.merge(named(R"rx("(answers_[a-z_]+)")rx"));
   EXPECT_GE(counters.size(), 25u);
   for (std::string counter : counters) {
-    if (counter.starts_with("commands_refused_")) counter = "commands_refused_";
+    for (const std::string refused : {"commands_refused_", "frames_refused_"})
+      if (counter.starts_with(refused)) counter = refused;
     if (counter.ends_with('_')) counter += "CAUSE";
-    EXPECT_THAT(document, testing::HasSubstr("\n| `" + counter + "` | ")) << counter;
+    EXPECT_NE(document.find("\n| `" + counter + "` | "), std::string::npos) << counter;
   }
 }
 
@@ -55,7 +56,7 @@ TEST(ServiceDocumentation, NamesEveryCauseOfRefusal) {
   const auto causes = named(R"rx(return \{"([a-z_]+)")rx");
   EXPECT_THAT(causes, testing::Contains("too_old"));
   for (const std::string& cause : causes)
-    EXPECT_THAT(document, testing::HasSubstr("`" + cause + "`")) << cause;
+    EXPECT_NE(document.find("`" + cause + "`"), std::string::npos) << cause;
 }
 
 }  // namespace

@@ -100,6 +100,61 @@ TEST(FrameAnswer, SearchesTheWholeImageFromTimeToTime) {
     EXPECT_EQ(modes[i], i % 4 == 0 ? AnswerMode::kDetection : AnswerMode::kTracking) << i;
 }
 
+/// Options with which a search of the whole image does not find the phantom: from so few points, chosen where
+/// it is not, that no pose comes up.
+AnswerOptions blind_search(int references, double deadline) {
+  AnswerOptions options;
+  options.match.voting.min_references = options.match.voting.max_references = references;
+  options.match.search.batch = 1;
+  options.tracking.detect_every = 1;
+  options.deadline = deadline;
+  for (options.match.seed = 1; options.match.seed < 100; ++options.match.seed)
+    if (!found(FrameAnswerer().answer(scene()[1].depth, {phantom()}, options))) return options;
+  ADD_FAILURE() << "no seed chooses points beside the phantom only";
+  return options;
+}
+
+/// A search that looked everywhere and does not find it outweighs that it could be followed.
+TEST(FrameAnswer, ASearchThatFindsNothingEndsATrack) {
+  FrameAnswerer answerer;
+  answerer.answer(scene()[0].depth, {phantom()}, {});
+  const FrameAnswer rejected = answerer.answer(scene()[1].depth, {phantom()}, blind_search(1, 0));
+  EXPECT_EQ(rejected.models[0].mode, AnswerMode::kDetection);
+  EXPECT_FALSE(found(rejected));
+  EXPECT_EQ(rejected.tracks_corrected, 1);
+  EXPECT_EQ(answerer.answer(scene()[2].depth, {phantom()}, {}).models[0].mode, AnswerMode::kDetection);
+}
+
+/// ... but not one that the deadline cut short.
+TEST(FrameAnswer, ASearchThatWasCutShortDoesNotEndATrack) {
+  FrameAnswerer answerer;
+  answerer.answer(scene()[0].depth, {phantom()}, {});
+  const FrameAnswer kept = answerer.answer(scene()[1].depth, {phantom()}, blind_search(600, 1e-5));
+  EXPECT_EQ(kept.models[0].mode, AnswerMode::kTracking);
+  EXPECT_TRUE(found(kept));
+  EXPECT_TRUE(kept.deadline_reached);
+}
+
+TEST(FrameAnswer, AFollowedPoseKeepsTheMarginOfItsDetection) {
+  FrameAnswerer answerer;
+  const FrameAnswer detected = answerer.answer(scene()[0].depth, {phantom()}, {});
+  const FrameAnswer followed = answerer.answer(scene()[1].depth, {phantom()}, {});
+  ASSERT_EQ(followed.models[0].mode, AnswerMode::kTracking);
+  EXPECT_EQ(followed.models[0].result.detections.at(0).margin,
+            detected.models[0].result.detections.at(0).margin);
+}
+
+/// The same file under two names: each is followed by itself.
+TEST(FrameAnswer, EqualModelsOfDifferentNames) {
+  auto twin = std::make_shared<RegisteredModel>(*phantom());
+  twin->name = "twin";
+  FrameAnswerer answerer;
+  answerer.answer(scene()[0].depth, {phantom()}, {});
+  const FrameAnswer answer = answerer.answer(scene()[1].depth, {phantom(), twin}, {});
+  EXPECT_EQ(answer.models[0].mode, AnswerMode::kTracking);
+  EXPECT_EQ(answer.models[1].mode, AnswerMode::kDetection);
+}
+
 TEST(FrameAnswer, AfterALongGapItDetects) {
   FrameAnswerer answerer;
   answerer.answer(scene()[0].depth, {phantom()}, {});

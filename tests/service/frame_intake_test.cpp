@@ -68,6 +68,7 @@ TEST_F(Intake, EveryBadInputHasItsCounter) {
   expect_refused("unknown_encoding", [](auto& m) { m.encoding = 7; });
   expect_refused("wrong_size", [](auto& m) { m.width = 0; });
   expect_refused("wrong_size", [](auto& m) { m.encoding = depth_frame_t::RAW16; });
+  expect_refused("too_many_pixels", [](auto& m) { m.width = 4096, m.height = 4096; });
   expect_refused("wrong_checksum", [](auto& m) { m.checksum ^= 1; });
   expect_refused("bad_intrinsics", [](auto& m) { m.fx = 0; });
   expect_refused("bad_depth_scale", [](auto& m) { m.depth_scale = -1; });

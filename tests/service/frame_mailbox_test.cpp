@@ -48,6 +48,15 @@ TEST(FrameMailbox, WakesWithoutAFrame) {
   other.join();
 }
 
+/// Commands that come without end do not keep frames waiting.
+TEST(FrameMailbox, AFrameComesBeforeBeingWoken) {
+  FrameMailbox mailbox;
+  mailbox.wake();
+  mailbox.put(frame("a", 1), 0);
+  EXPECT_TRUE(mailbox.take());
+  EXPECT_FALSE(mailbox.take()) << "and it is woken all the same";
+}
+
 TEST(FrameMailbox, ManyCamerasStayBounded) {
   FrameMailbox mailbox;
   for (int i = 0; i < 1000; ++i) mailbox.note_dropped("camera" + std::to_string(i), "too_old", 1);

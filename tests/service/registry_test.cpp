@@ -102,7 +102,8 @@ TEST_F(RegistryFolder, ADamagedModelCostsOnlyItself) {
       .seekp(5000)
       .write("damage", 6);
   Registry registry(folder_ / "");
-  EXPECT_THAT(registry.names(), testing::ElementsAre("a"));
+  ASSERT_EQ(registry.all().size(), 1u);
+  EXPECT_THAT(registry.names(), testing::ElementsAre("a", "b")) << "the name stays taken";
   ASSERT_EQ(registry.broken().size(), 1u);
   EXPECT_EQ(registry.broken()[0].entry.name, "b");
   EXPECT_THAT(registry.broken()[0].fault, testing::HasSubstr(file));
@@ -132,6 +133,23 @@ TEST_F(RegistryFolder, APlanForAnotherModelIsRefused) {
   std::ofstream(p.plan) << text;
   EXPECT_THROW(registry.add(p), InputError);
   EXPECT_TRUE(registry.all().empty());
+}
+
+/// What cannot be written down is not registered, nor unregistered, and nothing of it stays.
+TEST_F(RegistryFolder, WhatCannotBeWrittenDoesNotHappen) {
+  Registry registry(folder_ / "");
+  registry.add(prepared("a", registry, true));
+  const std::vector<std::string> before = files();
+  fs::remove(folder_ / "registry.json");
+  fs::create_directories(folder_ / "registry.json/in the way");
+  EXPECT_THROW(registry.add(prepared("b", registry)), InputError);
+  EXPECT_THROW(registry.remove("a"), InputError);
+  EXPECT_THAT(registry.names(), testing::ElementsAre("a"));
+  EXPECT_THAT(files(), testing::UnorderedElementsAreArray(before));
+  EXPECT_TRUE(fs::is_empty(registry.incoming()));
+  fs::remove_all(folder_ / "registry.json");
+  registry.add(prepared("b", registry));
+  EXPECT_THAT(registry.names(), testing::ElementsAre("a", "b"));
 }
 
 TEST(Manifest, OnlyItsOwnKindIsRead) {

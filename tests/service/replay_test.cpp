@@ -1,5 +1,5 @@
-/// A session is recorded to an LCM log with the program's own tools, and replayed into the daemon: the same bits at
-/// one and two threads, and right against the truth.
+/// A session is recorded to an LCM log with the program's own tools, and replayed into the daemon: the same
+/// bits at one and two threads, and right against the truth.
 #include <signal.h>
 
 #include "files/depth_file.h"
@@ -29,9 +29,8 @@ class ReplayTest : public DaemonTest {
   /// Sends what `arguments` say while `log` is recorded.
   void record_session(const std::filesystem::path& log, std::vector<std::string> arguments) {
     Process recorder({test::program("edgepose"), "record", log}, folder_ / "recorder");
-    ASSERT_TRUE(eventually([&] {
-      return test::read_text(folder_ / "recorder").find("recording to") != std::string::npos;
-    }));
+    ASSERT_TRUE(eventually(
+        [&] { return test::read_text(folder_ / "recorder").find("recording to") != std::string::npos; }));
     arguments.insert(arguments.begin(), "send");
     ASSERT_EQ(edgepose(arguments), 0) << output() << daemon_->log();
     recorder.signal(SIGTERM);
@@ -41,7 +40,8 @@ class ReplayTest : public DaemonTest {
     for (const int threads : {1, 2}) {
       start_with_threads(threads);
       const std::filesystem::path again = folder_ / ("again_" + std::to_string(threads));
-      ASSERT_EQ(edgepose({"replay", log, "--speed", "0", "--record", again, "--timeout", "60"}), 0) << output();
+      ASSERT_EQ(edgepose({"replay", log, "--speed", "0", "--record", again, "--timeout", "60"}), 0)
+          << output();
       EXPECT_EQ(edgepose({"compare", log, again}), 0) << threads << " threads: " << output();
     }
   }
