@@ -77,8 +77,8 @@ void limit(int what, rlim_t value) {
 }
 
 /// Between fork and exec of a program with threads: system calls only.
-[[noreturn]] void become(char* const* arguments, int in, int out, int err, const ChildLimits& limits,
-                         pid_t parent) {
+[[noreturn]] void become(char* const* arguments, int in, int out, int err,
+                         [[maybe_unused]] const ChildLimits& limits, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kCouldNotStart);
   sigset_t none;
@@ -139,6 +139,7 @@ ChildEnd run_self(const std::vector<std::string>& arguments, const std::string& 
   std::vector<std::string> words = arguments;
   words.insert(words.begin(), "edgeposed");
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const pid_t parent = getpid();

@@ -58,7 +58,7 @@ std::vector<ManifestEntry> parse_manifest(std::string_view text, const std::stri
       entries.push_back(entry_of(value));
       const ManifestEntry& entry = entries.back();
       if (const std::string fault = name_fault(entry.name); !fault.empty())
-        throw InputError(name + ": " + fault);
+        throw InputError(std::string(name).append(": ").append(fault));
       if (!names.insert(entry.name).second)
         throw InputError::at(name, "each name once", "'" + entry.name + "' twice");
       if (!is_plain_name(entry.file) || (!entry.plan_file.empty() && !is_plain_name(entry.plan_file)))

@@ -29,7 +29,12 @@ std::string counter_text(const Counters& counters) {
     metric += "_total";
     if (metric != last) text += head(metric, "counter", "since the start");
     last = metric;
-    text += "edgepose_" + metric + label + " " + std::to_string(value) + "\n";
+    text.append("edgepose_")
+        .append(metric)
+        .append(label)
+        .append(" ")
+        .append(std::to_string(value))
+        .append("\n");
   }
   return text;
 }

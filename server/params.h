@@ -30,7 +30,7 @@ class Params {
     if (!has(name)) throw RpcError(RpcCode::kBadParams, "params." + name + ": expected a text, found none");
     const nlohmann::json& value = values_[name];
     if (!value.is_string()) wrong(name, "a text");
-    const std::string text = value.get<std::string>();
+    auto text = value.get<std::string>();
     if (text.empty() || text.find('\0') != std::string::npos) wrong(name, "a text that is not empty");
     return text;
   }
@@ -58,7 +58,7 @@ class Params {
   }
   /// An absolute path: the daemon does not know where its client is.
   std::string path(const std::string& name) const {
-    const std::string value = text(name);
+    std::string value = text(name);
     if (value.front() != '/') wrong(name, "an absolute path");
     return value;
   }

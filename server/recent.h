@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -39,7 +40,7 @@ class Recent {
       sorted = last_;
     }
     if (sorted.empty()) return 0;
-    const auto at = sorted.begin() + static_cast<long>(share * static_cast<double>(sorted.size() - 1) + 0.5);
+    const auto at = sorted.begin() + std::lround(share * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), at, sorted.end());
     return *at;
   }

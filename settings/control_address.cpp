@@ -31,7 +31,7 @@ std::filesystem::path default_control_socket() {
   if (const std::string path = environment("EDGEPOSE_SOCKET"); !path.empty()) return path;
   if (const std::string folder = environment("RUNTIME_DIRECTORY"); !folder.empty())
     return std::filesystem::path(folder) / "control.sock";
-  const std::filesystem::path system = "/run/edgepose/control.sock";
+  std::filesystem::path system = "/run/edgepose/control.sock";
   std::error_code ignored;
   if (geteuid() == 0 || std::filesystem::exists(system, ignored)) return system;
   if (const std::string folder = environment("XDG_RUNTIME_DIR"); !folder.empty())

@@ -52,7 +52,7 @@ std::vector<std::string> WatchBoard::lines() const {
                              one_line(status_.version).c_str(), status_.uptime, 1e3 * status_.latency_p50,
                              1e3 * status_.latency_p99, status_.models.size()));
   for (const auto& [name, shown] : cameras_) {
-    list.push_back("");
+    list.emplace_back("");
     list.push_back(formatted("%s: answer %llu, sequence %lld, latency %.1f ms%s", one_line(name).c_str(),
                              static_cast<unsigned long long>(shown.answers),
                              static_cast<long long>(shown.answer.sequence),
