@@ -21,7 +21,7 @@ namespace {
 
 using Time = std::chrono::steady_clock::time_point;
 constexpr size_t kMaxPrinted = 256 << 10;
-constexpr int kTick = 50;  // [ms]
+constexpr int kLookEvery = 50;  // [ms]
 // A tenth of the weight of the matching: it is hardly delayed, and training still ends when all cores are
 // busy.
 constexpr int kNiceness = 10;
@@ -124,7 +124,7 @@ void read_all(int out, int err, const ChildLimits& limits, Time last, ChildEnd& 
   std::array<pollfd, 2> waits = {{{out, POLLIN, 0}, {err, POLLIN, 0}}};
   while (waits[0].fd >= 0 || waits[1].fd >= 0) {
     if (is_over(limits, last, result)) return;
-    if (poll(waits.data(), waits.size(), kTick) < 0 && errno != EINTR) return;
+    if (poll(waits.data(), waits.size(), kLookEvery) < 0 && errno != EINTR) return;
     if (waits[0].revents != 0 && !read_some(out, result.out)) waits[0].fd = -1;
     if (waits[1].revents != 0 && !read_some(err, result.err)) waits[1].fd = -1;
   }

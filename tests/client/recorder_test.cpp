@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-ReceivedMessage message(const std::string& channel, size_t size) {
+ReceivedMessage message_on(const std::string& channel, size_t size) {
   return {channel, std::make_unique<std::byte[]>(size), size};
 }
 
@@ -41,7 +41,7 @@ TEST_F(Recording, MessagesFromManyThreads) {
     std::vector<std::jthread> senders;
     for (int i = 0; i < 4; ++i)
       senders.emplace_back([&, i] {
-        for (int k = 0; k < 250; ++k) recorder.take(message("CHANNEL_" + std::to_string(i), 100));
+        for (int k = 0; k < 250; ++k) recorder.take(message_on("CHANNEL_" + std::to_string(i), 100));
       });
   }
   recorder.finish();
@@ -55,10 +55,10 @@ TEST_F(Recording, WhatTheQueueHasNoRoomForIsCounted) {
   Recorder::Options options;
   options.queue_bytes = 10'000;
   Recorder recorder(path_, LcmLogWriter::Existing::kRefuse, options);
-  recorder.take(message("TOO_LARGE", 20'000));
-  recorder.take(message("FITS", 5'000));
+  recorder.take(message_on("TOO_LARGE", 20'000));
+  recorder.take(message_on("FITS", 5'000));
   recorder.finish();
-  recorder.take(message("LATE", 10));
+  recorder.take(message_on("LATE", 10));
   EXPECT_EQ(recorder.counters().dropped, 2u);
   EXPECT_THAT(logged(), testing::ElementsAre(testing::Pair("FITS", 1)));
 }
@@ -68,7 +68,7 @@ TEST_F(Recording, AsManyAsAreWantedOfTheChannelsThatAreWanted) {
   options.max_messages = 3;
   options.channels = {"WANTED"};
   Recorder recorder(path_, LcmLogWriter::Existing::kRefuse, options);
-  for (int i = 0; i < 10; ++i) recorder.take(message(i % 2 == 0 ? "WANTED" : "OTHER", 10));
+  for (int i = 0; i < 10; ++i) recorder.take(message_on(i % 2 == 0 ? "WANTED" : "OTHER", 10));
   const SteadyTime end = soon();
   recorder.wait({}, end);
   EXPECT_LT(std::chrono::steady_clock::now(), end);
@@ -83,7 +83,7 @@ TEST_F(Recording, AFullDiskEndsTheWaitAndIsTold) {
   const rlimit small{300'000, before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
   Recorder recorder(path_, LcmLogWriter::Existing::kRefuse, {});
-  for (int i = 0; i < 40; ++i) recorder.take(message("DATA", 100'000));
+  for (int i = 0; i < 40; ++i) recorder.take(message_on("DATA", 100'000));
   const SteadyTime end = soon();
   recorder.wait({}, end);
   EXPECT_LT(std::chrono::steady_clock::now(), end);
