@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <toml++/toml.h>
 #include <fstream>
@@ -9,6 +10,7 @@
 
 #include "common/error.h"
 #include "server/service_options.h"
+#include "settings/control_address.h"
 
 namespace edgepose::test {
 namespace {
@@ -149,6 +151,24 @@ TEST(ServiceConfig, AFileThatCannotBeReadIsNamed) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::StartsWith("/nowhere/edgeposed.toml"));
   }
+}
+
+/// Anybody may have made the folder in /tmp that is taken where there is no other.
+TEST(ControlAddress, OfTheLastResortOnlyWhatIsOnesOwn) {
+  const bool is_root = geteuid() == 0;
+  ASSERT_EQ(is_root ? seteuid(65534) : 0, 0);
+  for (const char* name : {"EDGEPOSE_SOCKET", "RUNTIME_DIRECTORY", "XDG_RUNTIME_DIR"}) unsetenv(name);
+  const std::filesystem::path folder = "/tmp/edgepose-" + std::to_string(geteuid());
+  if (std::filesystem::exists("/run/edgepose/control.sock") || !std::filesystem::create_directory(folder)) {
+    ASSERT_EQ(is_root ? seteuid(0) : 0, 0);
+    GTEST_SKIP() << "a daemon runs here, or " << folder << " is there already";
+  }
+  std::filesystem::permissions(folder, std::filesystem::perms(0700));
+  EXPECT_EQ(default_control_socket(), folder / "control.sock");
+  std::filesystem::permissions(folder, std::filesystem::perms(0777));
+  EXPECT_THROW(default_control_socket(), InputError);
+  std::filesystem::remove(folder);
+  ASSERT_EQ(is_root ? seteuid(0) : 0, 0);
 }
 
 }  // namespace
