@@ -50,7 +50,9 @@ ListeningSocket ListeningSocket::on_file(const std::filesystem::path& path) {
                          std::to_string(path.string().size()));
   std::strncpy(address.sun_path, path.c_str(), sizeof(address.sun_path) - 1);
   std::error_code failed;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
+  // Whatever the umask: clients refuse a folder in /tmp that others can write.
+  if (path.has_parent_path() && std::filesystem::create_directories(path.parent_path(), failed))
+    std::filesystem::permissions(path.parent_path(), std::filesystem::perms(0755), failed);
   if (failed)
     throw InputError::at(path.string(), "a folder that can be made for the socket", failed.message());
   const int lock = lock_beside(path);
