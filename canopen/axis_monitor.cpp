@@ -43,7 +43,9 @@ Fault AxisMonitor::take(const CanFrame& frame, int64_t now_ns) {
 }
 
 void AxisMonitor::take_state(const StatePdo& state, int32_t target) {
-  const bool same = has_state_ && state == last_;
+  // Flags such as target reached are no sign that the axis lives.
+  const bool same = has_state_ && state.position == last_.position &&
+                    state_of(state.statusword) == state_of(last_.statusword);
   same_ = same ? same_ + 1 : 0;
   if (!same) target_when_changed_ = target;
   last_ = state;

@@ -107,12 +107,16 @@ void Master::latch(const Fault& fault) {
 
 const ArmState& Master::cycle(int64_t now_ns, const PerAxis<double>& set_points) {
   ++counters_.cycles;
-  const bool was_latched = state_.phase == MasterPhase::kFault;
+  const bool was_latched = state_.phase == MasterPhase::kFault, was_enabled = state_.phase == MasterPhase::kEnabled;
   receive(now_ns);
   if (state_.phase == MasterPhase::kSettingUp) continue_set_up(now_ns);
   if (communicating_) judge(now_ns);
   if (state_.phase == MasterPhase::kEnabling || state_.phase == MasterPhase::kDisabling) transit(now_ns);
-  take_set_points(set_points, now_ns);
+  // Who calls knows only from the next cycle on that set points count.
+  if (was_enabled && state_.phase == MasterPhase::kEnabled)
+    take_set_points(set_points, now_ns);
+  else
+    hold();
   produce(now_ns);
   if (!was_latched) remember(now_ns);
   last_cycle_ns_ = now_ns;
@@ -203,22 +207,21 @@ void Master::transit(int64_t now_ns) {
 
 void Master::take_set_points(const PerAxis<double>& set_points, int64_t now_ns) {
   PerAxis<int32_t> next{};
-  if (state_.phase == MasterPhase::kEnabled) {
-    for (size_t i = 0; i < next.size(); ++i) {
-      // A tenth more than the limit, and a count for rounding.
-      const double way = 1.1 * options_.max_velocity[i] * options_.cycle * options_.scale.counts_per_radian() + 1;
-      const bool usable = std::isfinite(set_points[i]) && set_points[i] >= options_.min_position[i] - 1e-6 &&
-                          set_points[i] <= options_.max_position[i] + 1e-6;
-      next[i] = usable ? options_.scale.to_counts(set_points[i]) : targets_[i];
-      if (usable && std::abs(double{static_cast<double>(next[i])} - targets_[i]) <= way) continue;
-      Fault bad{.kind = FaultKind::kBadSetPoint, .node = state_.axes[i].node, .time_ns = now_ns};
-      latch(bad);
-    }
-    if (state_.phase == MasterPhase::kEnabled) targets_ = next;
-    return;
+  for (size_t i = 0; i < next.size(); ++i) {
+    // A tenth more than the limit, and a count for rounding.
+    const double way = 1.1 * options_.max_velocity[i] * options_.cycle * options_.scale.counts_per_radian() + 1;
+    const bool usable = std::isfinite(set_points[i]) && set_points[i] >= options_.min_position[i] - 1e-6 &&
+                        set_points[i] <= options_.max_position[i] + 1e-6;
+    next[i] = usable ? options_.scale.to_counts(set_points[i]) : targets_[i];
+    if (usable && std::abs(static_cast<double>(next[i]) - targets_[i]) <= way) continue;
+    return latch(Fault{.kind = FaultKind::kBadSetPoint, .node = state_.axes[i].node, .time_ns = now_ns});
   }
-  // Where an axis is not in operation its target follows it, so that it does not jump when it is.
-  for (size_t i = 0; i < next.size(); ++i)
+  targets_ = next;
+}
+
+/// Where an axis is not in operation its target follows it, so that it does not jump when it is.
+void Master::hold() {
+  for (size_t i = 0; i < targets_.size(); ++i)
     if (state_.axes[i].state != DriveState::kOperationEnabled) targets_[i] = monitors_[i].counts();
 }
 
@@ -263,13 +266,15 @@ void Master::produce(int64_t now_ns) {
   if (took_frames_ || state_.phase == MasterPhase::kFault) sync_sent_ = send(sync_frame(now_ns));
   counters_.syncs += sync_sent_;
   no_room_ = took_frames_ ? 0 : no_room_ + 1;
-  if (no_room_ >= options_.max_no_room) latch(FaultKind::kNoRoom, now_ns, static_cast<uint32_t>(no_room_));
+  if (no_room_ >= options_.max_no_room) latch(is_down_ ? FaultKind::kBusDown : FaultKind::kNoRoom, now_ns, static_cast<uint32_t>(no_room_));
 }
 
 bool Master::send(const CanFrame& frame) {
-  if (bus_.send(frame) == SendResult::kSent) return true;
+  const SendResult result = bus_.send(frame);
+  if (result == SendResult::kSent) return true;
   ++counters_.not_sent;
   took_frames_ = false;
+  is_down_ = result == SendResult::kDown;
   return false;
 }
 

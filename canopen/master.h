@@ -84,6 +84,7 @@ class Master {
   void continue_set_up(int64_t now_ns);
   void judge(int64_t now_ns);
   void take_set_points(const PerAxis<double>& set_points, int64_t now_ns);
+  void hold();
   void transit(int64_t now_ns);
   uint16_t controlword_for(size_t axis);
   void produce(int64_t now_ns);
@@ -104,7 +105,7 @@ class Master {
   PerAxis<int64_t> since_ns_{};       ///< when each axis' state changed, while enabling or disabling
   PerAxis<int> cycles_in_phase_{};    ///< for fault resets and stops, counted from the phase's beginning
   bool communicating_ = false;        ///< drives are operational: SYNC runs
-  bool sync_sent_ = false, took_frames_ = true;
+  bool sync_sent_ = false, took_frames_ = true, is_down_ = false;
   int no_room_ = 0, flooded_ = 0;
   int64_t last_cycle_ns_ = 0, next_heartbeat_ns_ = 0;
   CycleRing ring_;

@@ -40,7 +40,6 @@ struct StatePdo {  ///< TPDO1, from the drive
   uint16_t statusword = 0;
   int8_t mode = 0;
   int32_t position = 0;  ///< [counts]
-  bool operator==(const StatePdo&) const = default;
 };
 struct MotionPdo {  ///< TPDO2, from the drive
   int32_t velocity = 0;  ///< [counts/s]

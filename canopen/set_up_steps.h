@@ -16,7 +16,7 @@ struct SetUpStep {
     kStart,   ///< NMT start, then a heartbeat that says operational
   };
   Kind kind = Kind::kExpect;
-  ObjectId id;
+  ObjectId id{};
   ObjectType type = ObjectType::kU32;
   int64_t value = 0;
   const char* name = "";  ///< of the object or its meaning, for messages
