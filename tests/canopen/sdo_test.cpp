@@ -17,7 +17,7 @@ class Sdo : public testing::Test {
  protected:
   /// Lets both speak until the client has nothing under way.
   void run() {
-    for (int i = 0; i < 200 && client_.state() == SdoClient::State::kBusy; ++i) {
+    for (int i = 0; i < 1000 && client_.state() == SdoClient::State::kBusy; ++i) {
       for (Received got; (got = there_.receive(0)).kind == Received::Kind::kFrame;)
         if (const auto answer = server_.answer(got.frame, now_)) there_.send(*answer);
       for (Received got; (got = here_.receive(0)).kind == Received::Kind::kFrame;) client_.take(got.frame, now_);
