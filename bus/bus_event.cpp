@@ -18,21 +18,36 @@ BusEvent controller_event(uint8_t status) {
 
 const char* name_of(BusEvent event) {
   switch (event) {
-    case BusEvent::kNone: return "nothing";
-    case BusEvent::kBusOff: return "bus-off";
-    case BusEvent::kErrorPassive: return "error passive";
-    case BusEvent::kErrorWarning: return "error warning";
-    case BusEvent::kErrorActive: return "error active";
-    case BusEvent::kControllerOverrun: return "controller overrun";
-    case BusEvent::kTransmitTimeout: return "transmit timeout";
-    case BusEvent::kLostArbitration: return "lost arbitration";
-    case BusEvent::kProtocolViolation: return "protocol violation";
-    case BusEvent::kTransceiver: return "transceiver fault";
-    case BusEvent::kNoAcknowledge: return "no acknowledge";
-    case BusEvent::kBusError: return "bus error";
-    case BusEvent::kRestarted: return "restarted";
-    case BusEvent::kDown: return "down";
-    case BusEvent::kEnd: return "end of the recording";
+    case BusEvent::kNone:
+      return "nothing";
+    case BusEvent::kBusOff:
+      return "bus-off";
+    case BusEvent::kErrorPassive:
+      return "error passive";
+    case BusEvent::kErrorWarning:
+      return "error warning";
+    case BusEvent::kErrorActive:
+      return "error active";
+    case BusEvent::kControllerOverrun:
+      return "controller overrun";
+    case BusEvent::kTransmitTimeout:
+      return "transmit timeout";
+    case BusEvent::kLostArbitration:
+      return "lost arbitration";
+    case BusEvent::kProtocolViolation:
+      return "protocol violation";
+    case BusEvent::kTransceiver:
+      return "transceiver fault";
+    case BusEvent::kNoAcknowledge:
+      return "no acknowledge";
+    case BusEvent::kBusError:
+      return "bus error";
+    case BusEvent::kRestarted:
+      return "restarted";
+    case BusEvent::kDown:
+      return "down";
+    case BusEvent::kEnd:
+      return "end of the recording";
   }
   return "unknown";
 }

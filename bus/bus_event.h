@@ -7,15 +7,15 @@ namespace edgepose {
 /// What happens to a bus, as against on it. SocketCAN tells it with error frames (linux/can/error.h).
 enum class BusEvent : uint8_t {
   kNone,
-  kBusOff,             ///< the controller has left the bus after 256 transmit errors; an operator must restart it
-  kErrorPassive,       ///< 128 errors: it may no longer signal errors of others
-  kErrorWarning,       ///< 96 errors
-  kErrorActive,        ///< back to normal
+  kBusOff,        ///< the controller has left the bus after 256 transmit errors; an operator must restart it
+  kErrorPassive,  ///< 128 errors: it may no longer signal errors of others
+  kErrorWarning,  ///< 96 errors
+  kErrorActive,   ///< back to normal
   kControllerOverrun,  ///< the controller's own buffer has overflowed: frames were lost
   kTransmitTimeout,
   kLostArbitration,
   kProtocolViolation,
-  kTransceiver,  ///< wires broken or shorted
+  kTransceiver,    ///< wires broken or shorted
   kNoAcknowledge,  ///< nobody else on the bus
   kBusError,
   kRestarted,  ///< the controller is on the bus again after bus-off

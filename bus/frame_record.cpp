@@ -23,7 +23,8 @@ FrameRecord to_record(const CanFrame& frame) {
 Received from_record(std::span<const uint8_t> record) {
   Received read;
   if (record.size() < kRecordHeader || record.size() > kFrameRecordBytes) return read;
-  const uint32_t id = uint32_t{record[0]} << 24 | uint32_t{record[1]} << 16 | uint32_t{record[2]} << 8 | record[3];
+  const uint32_t id =
+      uint32_t{record[0]} << 24 | uint32_t{record[1]} << 16 | uint32_t{record[2]} << 8 | record[3];
   const size_t size = record[4];
   if (size > 8 || kRecordHeader + size > record.size()) return read;
   std::copy_n(record.begin() + kRecordHeader, size, read.frame.data.begin());

@@ -8,8 +8,8 @@
 namespace edgepose {
 
 /// A frame as bytes: `struct can_frame` with the identifier in network byte order, as captures of link type
-/// LINKTYPE_CAN_SOCKETCAN (227) have it: id u32, length u8, 3 bytes of padding, 8 of data. The Unix socket bus
-/// uses the same.
+/// LINKTYPE_CAN_SOCKETCAN (227) have it: id u32, length u8, 3 bytes of padding, 8 of data. The Unix socket
+/// bus uses the same.
 inline constexpr size_t kFrameRecordBytes = 16;
 using FrameRecord = std::array<uint8_t, kFrameRecordBytes>;
 

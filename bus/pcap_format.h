@@ -3,8 +3,8 @@
 #include <cstdint>
 
 /// Classic pcap (draft-ietf-opsawg-pcap): a header of 24 bytes (magic u32, version 2.4 as two u16, zone and
-/// accuracy u32 each, snapshot length u32, link type u32), then records: seconds u32, fraction u32, length kept
-/// u32, length u32, bytes. In the byte order of who wrote it, which the magic number tells.
+/// accuracy u32 each, snapshot length u32, link type u32), then records: seconds u32, fraction u32, length
+/// kept u32, length u32, bytes. In the byte order of who wrote it, which the magic number tells.
 namespace edgepose::pcap_format {
 
 inline constexpr uint32_t kMagicMicroseconds = 0xa1b2c3d4, kMagicNanoseconds = 0xa1b23c4d;

@@ -54,7 +54,8 @@ Received PcapReader::next() {
     const size_t got = read_some(file_, header.data(), header.size());
     if (got == 0) return {};
     const uint32_t kept = number(header.data() + 8);
-    cut_off_ = got < header.size() || kept > format::kMaxRecord || read_some(file_, bytes.data(), kept) < kept;
+    cut_off_ =
+        got < header.size() || kept > format::kMaxRecord || read_some(file_, bytes.data(), kept) < kept;
     if (cut_off_) return {};
     Received read = from_record(std::span(bytes).first(kept));
     if (read.kind == Received::Kind::kNothing) {

@@ -14,12 +14,16 @@ class PcapReader {
   /// Throws InputError unless it is such a capture.
   explicit PcapReader(const std::filesystem::path& path);
 
-  /// The next frame or event, its time in `frame.time_ns`: [ns] since 1970, UTC, as the file has it. kNothing at
-  /// the end.
+  /// The next frame or event, its time in `frame.time_ns`: [ns] since 1970, UTC, as the file has it. kNothing
+  /// at the end.
   Received next();
 
-  uint64_t skipped() const { return skipped_; }  ///< records that are no frame (extended, remote, FD, damaged)
-  bool is_cut_off() const { return cut_off_; }   ///< known at the end: it ends within a record, or at a length that cannot be
+  uint64_t skipped() const {
+    return skipped_;
+  }  ///< records that are no frame (extended, remote, FD, damaged)
+  bool is_cut_off() const {
+    return cut_off_;
+  }  ///< known at the end: it ends within a record, or at a length that cannot be
 
  private:
   uint32_t number(const uint8_t* at) const;

@@ -45,7 +45,8 @@ int can_interface(int socket, const std::string& name) {
   return request.ifr_ifindex;
 }
 
-/// When it was received, on the steady clock: the kernel stamps by the wall clock, which may be set in between.
+/// When it was received, on the steady clock: the kernel stamps by the wall clock, which may be set in
+/// between.
 int64_t steady_time_of(const timespec& stamp) {
   constexpr int64_t kSecond = 1'000'000'000;
   const int64_t now = steady_ns();
@@ -137,7 +138,8 @@ Received SocketCanBus::receive(int64_t deadline_ns) {
     int64_t time = steady_ns();
     for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part)) {
       if (part->cmsg_level != SOL_SOCKET) continue;
-      if (part->cmsg_type == SO_RXQ_OVFL) {  // counts from the beginning; seen on the frame after the loss only
+      if (part->cmsg_type ==
+          SO_RXQ_OVFL) {  // counts from the beginning; seen on the frame after the loss only
         uint32_t overflows = 0;
         std::memcpy(&overflows, CMSG_DATA(part), sizeof(overflows));
         counters_.lost += overflows - overflows_;

@@ -28,7 +28,8 @@ UnixBus::~UnixBus() { close(socket_); }
 SendResult UnixBus::send(const CanFrame& frame) {
   const FrameRecord record = to_record(frame);
   ssize_t sent = -1;
-  while (!down_ && (sent = ::send(socket_, record.data(), record.size(), MSG_NOSIGNAL)) < 0 && errno == EINTR) {
+  while (!down_ && (sent = ::send(socket_, record.data(), record.size(), MSG_NOSIGNAL)) < 0 &&
+         errno == EINTR) {
   }
   if (sent == static_cast<ssize_t>(record.size())) {
     ++counters_.sent;

@@ -28,14 +28,15 @@ struct UnixBusHubCounters {
 /// calls serve(); none of it throws.
 class UnixBusHub {
  public:
-  /// Listens at `path` (mode 0660), which is removed at the end. Throws InputError if it cannot, or another hub
-  /// listens there; the socket of one that was killed is replaced.
+  /// Listens at `path` (mode 0660), which is removed at the end. Throws InputError if it cannot, or another
+  /// hub listens there; the socket of one that was killed is replaced.
   explicit UnixBusHub(const std::filesystem::path& path, const UnixBusHubOptions& options = {});
   UnixBusHub(const UnixBusHub&) = delete;
   UnixBusHub& operator=(const UnixBusHub&) = delete;
   ~UnixBusHub();
 
-  /// Waits for frames until `deadline_ns` (steady) and passes on what has come; returns after the first batch.
+  /// Waits for frames until `deadline_ns` (steady) and passes on what has come; returns after the first
+  /// batch.
   void serve(int64_t deadline_ns);
 
   size_t members() const { return members_.size(); }

@@ -36,7 +36,8 @@ Fault AxisMonitor::take(const CanFrame& frame, int64_t now_ns) {
     state_.torque = motion->torque * 1e-3;
   } else if (const auto heartbeat = decode_heartbeat(frame)) {
     return take_heartbeat(*heartbeat, now_ns);
-  } else if (const auto emergency = decode_emergency(frame); emergency && emergency->code != emergency_code::kNone) {
+  } else if (const auto emergency = decode_emergency(frame);
+             emergency && emergency->code != emergency_code::kNone) {
     return fault(FaultKind::kEmergency, now_ns, emergency->code);
   }
   return {};
@@ -97,7 +98,9 @@ Fault AxisMonitor::judge_motion(int64_t now_ns, int32_t target) const {
     left.expected = DriveState::kOperationEnabled;
     return left;
   }
-  const auto away = [&](int32_t from) { return std::abs(options_.scale.to_radians(target) - options_.scale.to_radians(from)); };
+  const auto away = [&](int32_t from) {
+    return std::abs(options_.scale.to_radians(target) - options_.scale.to_radians(from));
+  };
   if (word & statusword::kFollowingError || away(last_.position) > options_.master_following_window)
     return fault(FaultKind::kFollowingError, now_ns, word);
   if (same_ >= options_.stuck_cycles && away(target_when_changed_) > options_.stuck_motion)

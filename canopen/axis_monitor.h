@@ -16,9 +16,9 @@ struct AxisState {
   double torque = 0;    ///< share of the rated torque, with every fourth SYNC
   uint16_t statusword = 0;
   DriveState state = DriveState::kUnknown;
-  int missed = 0;           ///< states that did not come, in a row
+  int missed = 0;  ///< states that did not come, in a row
   uint64_t missed_ever = 0;
-  bool homed = true;        ///< false after the drive has booted by itself, until confirm_homed()
+  bool homed = true;  ///< false after the drive has booted by itself, until confirm_homed()
 };
 
 /// Watches one axis: keeps its state and finds what is wrong with it. Faults are values; nothing throws or
@@ -31,8 +31,8 @@ class AxisMonitor {
   void begin(int64_t now_ns);
   /// A frame of this node.
   Fault take(const CanFrame& frame, int64_t now_ns);
-  /// At the end of each cycle's frames. `expects_state`: a SYNC was sent since the last time. `target`: what the
-  /// drive was told last [counts]. `is_enabled`: it should be moving.
+  /// At the end of each cycle's frames. `expects_state`: a SYNC was sent since the last time. `target`: what
+  /// the drive was told last [counts]. `is_enabled`: it should be moving.
   Fault judge(int64_t now_ns, bool expects_state, int32_t target, bool is_enabled);
 
   const AxisState& state() const { return state_; }

@@ -14,7 +14,8 @@ struct CycleRecord {
   PerAxis<uint16_t> controlword{}, statusword{};
 };
 
-/// The last 50 cycles, so that a fault can be understood afterwards. Allocates only when it is asked for them.
+/// The last 50 cycles, so that a fault can be understood afterwards. Allocates only when it is asked for
+/// them.
 class CycleRing {
  public:
   static constexpr size_t kSize = 50;

@@ -3,8 +3,8 @@
 
 namespace edgepose {
 
-/// Watches that something comes at least every so often, from its first coming on. Says once that it stayed away,
-/// and watches again when it has come back.
+/// Watches that something comes at least every so often, from its first coming on. Says once that it stayed
+/// away, and watches again when it has come back.
 class Deadline {
  public:
   void feed(int64_t now_ns) { last_ns_ = now_ns, armed_ = true; }

@@ -74,7 +74,8 @@ void Drive::take(const CanFrame& frame, int64_t now_ns) {
   if (nmt_ == NmtState::kBootUp) return;
   // Bits 16 to 22 of 1016: whose heartbeat; 0 to 15: within how many ms.
   const int64_t consumer = objects_.value(object::kConsumerHeartbeat);
-  if (frame.id == cob_id::kHeartbeat + (consumer >> 16 & 0x7f) && consumer >> 16 != 0) master_deadline_.feed(now_ns);
+  if (frame.id == cob_id::kHeartbeat + (consumer >> 16 & 0x7f) && consumer >> 16 != 0)
+    master_deadline_.feed(now_ns);
   if (nmt_ == NmtState::kStopped) return;
   if (const auto answer = sdo_.answer(frame, now_ns)) {
     if (!is(Provocation::kNoSdo)) say(*answer);
@@ -83,7 +84,8 @@ void Drive::take(const CanFrame& frame, int64_t now_ns) {
   if (nmt_ != NmtState::kOperational) return;
   if (is_sync(frame) && frame.id == (objects_.value(object::kSyncCobId) & CanFrame::kMaxId)) {
     synchronise(now_ns);
-  } else if (frame.id == objects_.value({object::kRpdoCommunication, 1})) {  // the top bit is set if it is off
+  } else if (frame.id ==
+             objects_.value({object::kRpdoCommunication, 1})) {  // the top bit is set if it is off
     rpdo_ = frame;
     rpdo_waits_ = true;
     rpdo_deadline_.feed(now_ns);
@@ -94,15 +96,20 @@ void Drive::take(const CanFrame& frame, int64_t now_ns) {
 void Drive::obey(const NmtMessage& message) {
   if (nmt_ == NmtState::kBootUp) return;
   switch (message.command) {
-    case NmtCommand::kStart: nmt_ = NmtState::kOperational; break;
+    case NmtCommand::kStart:
+      nmt_ = NmtState::kOperational;
+      break;
     case NmtCommand::kStop:
     case NmtCommand::kEnterPreOperational:
       nmt_ = message.command == NmtCommand::kStop ? NmtState::kStopped : NmtState::kPreOperational;
       rpdo_deadline_.disarm();
       sync_deadline_.disarm();
-      if (axis_.state() == DriveState::kOperationEnabled) axis_.lose_connection(emergency_code::kNodeGuarding);
+      if (axis_.state() == DriveState::kOperationEnabled)
+        axis_.lose_connection(emergency_code::kNodeGuarding);
       break;
-    case NmtCommand::kResetNode: power_cycle(); break;
+    case NmtCommand::kResetNode:
+      power_cycle();
+      break;
     case NmtCommand::kResetCommunication:  // power off, but a fault of the drive stays one
       axis_.cut_power();
       boot();
@@ -130,7 +137,8 @@ void Drive::send_tpdo(int number, int64_t now_ns) {
   if (cob > CanFrame::kMaxId || is(Provocation::kNoTpdo)) return;
   CanFrame frame{.id = static_cast<uint16_t>(cob), .size = 0, .data = {}, .time_ns = now_ns};
   pack_pdo(objects_, static_cast<uint16_t>(object::kTpdoMapping + number), frame);
-  if (number == 0 && is(Provocation::kFrozenState) && last_tpdo1_.id == frame.id) frame.data = last_tpdo1_.data;
+  if (number == 0 && is(Provocation::kFrozenState) && last_tpdo1_.id == frame.id)
+    frame.data = last_tpdo1_.data;
   if (number == 0) last_tpdo1_ = frame;
   say(frame);
 }
@@ -148,7 +156,8 @@ void Drive::advance(int64_t now_ns) {
     nmt_ = NmtState::kPreOperational;
     next_heartbeat_ns_ = now_ns;
   }
-  while (const auto emergency = axis_.take_emergency()) say(emergency_frame(options_.node, *emergency, now_ns));
+  while (const auto emergency = axis_.take_emergency())
+    say(emergency_frame(options_.node, *emergency, now_ns));
   const int64_t period = objects_.value(object::kProducerHeartbeat) * kMillisecond;
   if (period == 0 || now_ns < next_heartbeat_ns_) return;
   next_heartbeat_ns_ += period;
@@ -160,7 +169,8 @@ void Drive::watch(int64_t now_ns) {
   const int64_t rpdo = objects_.value({object::kRpdoCommunication, 5}) * kMillisecond;
   if (rpdo_deadline_.expires(now_ns, rpdo)) lose(emergency_code::kRpdoTimeout);
   const double cycle = static_cast<double>(objects_.value(object::kCyclePeriod)) * 1e3;
-  if (sync_deadline_.expires(now_ns, static_cast<int64_t>(kSyncPatience * cycle))) lose(emergency_code::kSyncMissing);
+  if (sync_deadline_.expires(now_ns, static_cast<int64_t>(kSyncPatience * cycle)))
+    lose(emergency_code::kSyncMissing);
   const int64_t master = (objects_.value(object::kConsumerHeartbeat) & 0xffff) * kMillisecond;
   if (master_deadline_.expires(now_ns, master)) lose(emergency_code::kNodeGuarding);
 }

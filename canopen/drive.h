@@ -9,14 +9,15 @@
 
 namespace edgepose {
 
-/// What can be wrong with a drive. Each lasts until it is taken back, but for the first two, which happen once.
+/// What can be wrong with a drive. Each lasts until it is taken back, but for the first two, which happen
+/// once.
 enum class Provocation : uint8_t {
-  kEmergency,         ///< too hot: EMCY 0x4210, fault reaction
-  kReboot,            ///< loses its supply for a moment: boot-up
-  kJam,               ///< the axis is blocked
-  kDrag,              ///< the axis hardly moves
-  kFrozenState,       ///< TPDO1 says the same again and again
-  kIgnoresController, ///< the state machine does not act on controlwords
+  kEmergency,          ///< too hot: EMCY 0x4210, fault reaction
+  kReboot,             ///< loses its supply for a moment: boot-up
+  kJam,                ///< the axis is blocked
+  kDrag,               ///< the axis hardly moves
+  kFrozenState,        ///< TPDO1 says the same again and again
+  kIgnoresController,  ///< the state machine does not act on controlwords
   kNoHeartbeat,
   kNoTpdo,
   kNoSdo,
@@ -24,8 +25,9 @@ enum class Provocation : uint8_t {
   kCount,
 };
 
-/// A simulated CiA 402 drive in mode 8, a node on a bus: its own objects, NMT, SDO, PDOs with SYNC, EMCY, heartbeat;
-/// watches over SYNC, RPDOs (1400:05) and the master's heartbeat (1016), and stops by itself. One thread.
+/// A simulated CiA 402 drive in mode 8, a node on a bus: its own objects, NMT, SDO, PDOs with SYNC, EMCY,
+/// heartbeat; watches over SYNC, RPDOs (1400:05) and the master's heartbeat (1016), and stops by itself. One
+/// thread.
 class Drive {
  public:
   /// `bus` may be shared by several drives: then call take() and advance(), not step(). Must live longer.
@@ -36,8 +38,8 @@ class Drive {
   /// Takes what the bus has received, then advances.
   void step(int64_t now_ns);
   void take(const CanFrame& frame, int64_t now_ns);
-  /// Moves the axis up to now, in steps of at most 1 ms, at most 2 s (a program that was stopped does not catch up
-  /// on more); sends what is due.
+  /// Moves the axis up to now, in steps of at most 1 ms, at most 2 s (a program that was stopped does not
+  /// catch up on more); sends what is due.
   void advance(int64_t now_ns);
 
   void provoke(Provocation kind, bool on = true);

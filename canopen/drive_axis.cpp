@@ -19,7 +19,9 @@ uint8_t register_of(uint16_t code) {
 }  // namespace
 
 DriveAxis::DriveAxis(ObjectDictionary& objects, const DriveOptions& options)
-    : objects_(objects), options_(options), motion_(options.position, options.lag, options.brake_deceleration) {}
+    : objects_(objects),
+      options_(options),
+      motion_(options.position, options.lag, options.brake_deceleration) {}
 
 double DriveAxis::radians(ObjectId id) const {
   return static_cast<double>(objects_.value(id)) / options_.scale.counts_per_radian();
@@ -32,7 +34,8 @@ void DriveAxis::apply() {
   const DriveState next = after_controlword(state_, word, previous_word_);
   previous_word_ = word;
   if (next != state_) enter(next);
-  if (state_ != DriveState::kOperationEnabled || objects_.value(object::kModeDisplay) != kCyclicSynchronousPosition)
+  if (state_ != DriveState::kOperationEnabled ||
+      objects_.value(object::kModeDisplay) != kCyclicSynchronousPosition)
     return;
   const double wanted = radians(object::kTargetPosition);
   const double low = radians(object::kMinPosition), high = std::max(low, radians(object::kMaxPosition));
@@ -47,10 +50,15 @@ void DriveAxis::enter(DriveState state) {
   const bool was_fault = state_ == DriveState::kFault;
   state_ = state;
   switch (state) {
-    case DriveState::kOperationEnabled: motion_.follow(); break;
+    case DriveState::kOperationEnabled:
+      motion_.follow();
+      break;
     case DriveState::kQuickStopActive:
-    case DriveState::kFaultReactionActive: motion_.brake(radians(object::kQuickStopDeceleration)); break;
-    default: motion_.release();
+    case DriveState::kFaultReactionActive:
+      motion_.brake(radians(object::kQuickStopDeceleration));
+      break;
+    default:
+      motion_.release();
   }
   limited_ = false;
   beyond_window_ = 0;
@@ -92,10 +100,17 @@ void DriveAxis::lose_connection(uint16_t code) {
   report(code, register_of(code));
   if (state_ != DriveState::kOperationEnabled) return;
   switch (objects_.value(object::kAbortOption)) {
-    case 1: fail(code); break;
-    case 2: enter(DriveState::kSwitchOnDisabled); break;
-    case 3: enter(DriveState::kQuickStopActive); break;
-    default: break;  // 0: goes on
+    case 1:
+      fail(code);
+      break;
+    case 2:
+      enter(DriveState::kSwitchOnDisabled);
+      break;
+    case 3:
+      enter(DriveState::kQuickStopActive);
+      break;
+    default:
+      break;  // 0: goes on
   }
 }
 

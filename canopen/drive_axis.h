@@ -11,8 +11,8 @@
 
 namespace edgepose {
 
-/// The power side of a simulated drive: CiA 402's state machine over the motion, with limits and errors as its
-/// objects say. Knows nothing of CAN.
+/// The power side of a simulated drive: CiA 402's state machine over the motion, with limits and errors as
+/// its objects say. Knows nothing of CAN.
 class DriveAxis {
  public:
   DriveAxis(ObjectDictionary& objects, const DriveOptions& options);

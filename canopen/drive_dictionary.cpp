@@ -48,8 +48,10 @@ void add_communication(ObjectDictionary& objects, const DriveOptions& options) {
 
 void add_pdo(ObjectDictionary& objects, uint16_t communication, uint16_t mapping, uint32_t cob) {
   objects.add(count_of(communication, 5));
-  objects.add({.id = {communication, 1}, .type = kU32, .access = kReadWrite, .value = cob_id::kNotValid | cob});
-  objects.add({.id = {communication, 2}, .type = kU8, .access = kReadWrite, .value = 1, .min = 0, .max = 240});
+  objects.add(
+      {.id = {communication, 1}, .type = kU32, .access = kReadWrite, .value = cob_id::kNotValid | cob});
+  objects.add(
+      {.id = {communication, 2}, .type = kU8, .access = kReadWrite, .value = 1, .min = 0, .max = 240});
   objects.add({.id = {communication, 5}, .type = kU16, .access = kReadWrite});
   objects.add({.id = {mapping, 0}, .type = kU8, .access = kReadWrite, .min = 0, .max = kMaxMapped});
   for (uint8_t i = 1; i <= kMaxMapped; ++i)
@@ -78,12 +80,23 @@ void add_drive_profile(ObjectDictionary& objects, const JointScale& scale) {
       {.id = object::kMinPosition, .type = kI32, .access = kReadWrite, .value = counts(-3.14)},
       {.id = object::kMaxPosition, .type = kI32, .access = kReadWrite, .value = counts(3.14)},
       {.id = object::kMaxVelocity, .type = kU32, .access = kReadWrite, .value = counts(3.3), .min = 1},
-      {.id = object::kQuickStopDeceleration, .type = kU32, .access = kReadWrite, .value = counts(10), .min = 1},
+      {.id = object::kQuickStopDeceleration,
+       .type = kU32,
+       .access = kReadWrite,
+       .value = counts(10),
+       .min = 1},
       count_of(object::kInterpolationTime.index, 2),
       {.id = object::kInterpolationTime, .type = kU8, .access = kReadWrite, .value = 1, .min = 1},
-      {.id = object::kInterpolationExponent, .type = kI8, .access = kReadWrite, .value = -3, .min = -6, .max = 0},
+      {.id = object::kInterpolationExponent,
+       .type = kI8,
+       .access = kReadWrite,
+       .value = -3,
+       .min = -6,
+       .max = 0},
       {.id = object::kFollowingError, .type = kI32, .mappable = true},
-      {.id = object::kSupportedModes, .type = kU32, .access = kConst,
+      {.id = object::kSupportedModes,
+       .type = kU32,
+       .access = kConst,
        .value = 1 << (kCyclicSynchronousPosition - 1)},
   };
   for (const ObjectEntry& entry : entries) objects.add(entry);
@@ -119,9 +132,11 @@ ObjectDictionary make_drive_dictionary(const DriveOptions& options) {
 SdoAbort check_pdo_write(const ObjectDictionary& objects, ObjectId id, int64_t value) {
   const bool of_rpdo = id.index == object::kRpdoMapping;
   const bool of_tpdo = id.index == object::kTpdoMapping || id.index == object::kTpdoMapping + 1;
-  if (id == object::kMode && value != 0 && value != kCyclicSynchronousPosition) return SdoAbort::kInvalidValue;
+  if (id == object::kMode && value != 0 && value != kCyclicSynchronousPosition)
+    return SdoAbort::kInvalidValue;
   if (!of_rpdo && !of_tpdo) return SdoAbort::kNone;
-  const auto communication = static_cast<uint16_t>(id.index - (object::kRpdoMapping - object::kRpdoCommunication));
+  const auto communication =
+      static_cast<uint16_t>(id.index - (object::kRpdoMapping - object::kRpdoCommunication));
   if (!(objects.value({communication, 1}) & cob_id::kNotValid)) return SdoAbort::kDeviceState;
   if (id.sub == 0) return check_mapping(objects, id.index, value);
   return objects.value({id.index, 0}) == 0 ? SdoAbort::kNone : SdoAbort::kDeviceState;

@@ -17,9 +17,9 @@ struct DriveOptions {
   DriveIdentity identity;
   std::string name = "edgepose simulated drive";  ///< object 1008
   JointScale scale;
-  double position = 0;              ///< [rad] at first
-  double lag = 0.004;               ///< [s] time constant with which the axis follows the demanded position
-  double brake_deceleration = 50;   ///< [rad/s^2] of the holding brake, without power
+  double position = 0;             ///< [rad] at first
+  double lag = 0.004;              ///< [s] time constant with which the axis follows the demanded position
+  double brake_deceleration = 50;  ///< [rad/s^2] of the holding brake, without power
 };
 
 }  // namespace edgepose

@@ -46,16 +46,23 @@ void DriveSetUp::enter_step(int64_t now_ns) {
   unsent_ = false;
   const int64_t timeout = nanoseconds(options_.sdo_timeout);
   switch (step().kind) {
-    case SetUpStep::Kind::kBootUp: send_nmt(NmtCommand::kResetCommunication, now_ns); break;
-    case SetUpStep::Kind::kSettle: break;
-    case SetUpStep::Kind::kExpect: client_.upload(step().id, now_ns, timeout); break;
+    case SetUpStep::Kind::kBootUp:
+      send_nmt(NmtCommand::kResetCommunication, now_ns);
+      break;
+    case SetUpStep::Kind::kSettle:
+      break;
+    case SetUpStep::Kind::kExpect:
+      client_.upload(step().id, now_ns, timeout);
+      break;
     case SetUpStep::Kind::kWrite: {
       std::vector<uint8_t> bytes;
       append_number(step().type, step().value, bytes);
       client_.download(step().id, bytes, now_ns, timeout);
       break;
     }
-    case SetUpStep::Kind::kStart: send_nmt(NmtCommand::kStart, now_ns); break;
+    case SetUpStep::Kind::kStart:
+      send_nmt(NmtCommand::kStart, now_ns);
+      break;
   }
 }
 
@@ -70,7 +77,8 @@ void DriveSetUp::take(const CanFrame& frame, int64_t now_ns) {
     if (!state) return;
     last_heartbeat_ = *state;
     if (*state == NmtState::kBootUp && ++boot_ups_ > 1)
-      return fail_duplicate(step().kind == SetUpStep::Kind::kSettle ? "two of them booted" : "it booted again", now_ns);
+      return fail_duplicate(
+          step().kind == SetUpStep::Kind::kSettle ? "two of them booted" : "it booted again", now_ns);
     if (step().kind == SetUpStep::Kind::kBootUp && boot_ups_ > 0) return next_step(now_ns);
     if (step().kind == SetUpStep::Kind::kStart && *state == NmtState::kOperational) return next_step(now_ns);
     return;
@@ -87,7 +95,9 @@ void DriveSetUp::take_answer(int64_t now_ns) {
   const std::string value = hex_number(step().value);
   const std::string wanted = reads ? what + " to be " + value : what + " to take " + value;
   switch (client_.state()) {
-    case SdoClient::State::kTimedOut: fail(wanted, "no answer", now_ns); break;
+    case SdoClient::State::kTimedOut:
+      fail(wanted, "no answer", now_ns);
+      break;
     case SdoClient::State::kAborted: {
       const auto reason = static_cast<uint32_t>(client_.abort_reason());
       const char* who = client_.aborted_by_node() ? "abort " : "an answer against the protocol, abort ";
@@ -105,7 +115,8 @@ void DriveSetUp::take_answer(int64_t now_ns) {
       next_step(now_ns);
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -122,7 +133,8 @@ void DriveSetUp::tick(int64_t now_ns) {
       break;
     case SetUpStep::Kind::kStart:
       if (waited >= nanoseconds(options_.start_timeout))
-        return fail("a heartbeat that says operational", std::string("state ") + name_of(last_heartbeat_), now_ns);
+        return fail("a heartbeat that says operational", std::string("state ") + name_of(last_heartbeat_),
+                    now_ns);
       if (unsent_) send_nmt(NmtCommand::kStart, now_ns);
       break;
     default:

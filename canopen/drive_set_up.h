@@ -8,8 +8,8 @@
 
 namespace edgepose {
 
-/// Takes one drive from whatever it was doing to operational, configured and without power. Waits for nothing: who
-/// owns it passes in frames and the time. Each step has its own deadline.
+/// Takes one drive from whatever it was doing to operational, configured and without power. Waits for
+/// nothing: who owns it passes in frames and the time. Each step has its own deadline.
 class DriveSetUp {
  public:
   enum class State : uint8_t { kIdle, kRunning, kDone, kFailed };

@@ -66,9 +66,12 @@ CanFrame emergency_frame(int node, const Emergency& emergency, int64_t now_ns) {
 }
 
 std::optional<Emergency> decode_emergency(const CanFrame& frame) {
-  if (cob_id::function_of(frame.id) != cob_id::kEmergency || cob_id::node_of(frame.id) == 0 || frame.size != 8)
+  if (cob_id::function_of(frame.id) != cob_id::kEmergency || cob_id::node_of(frame.id) == 0 ||
+      frame.size != 8)
     return std::nullopt;
-  Emergency emergency{.code = read_little_endian<uint16_t>(frame.data, 0), .error_register = frame.data[2], .manufacturer = {}};
+  Emergency emergency{.code = read_little_endian<uint16_t>(frame.data, 0),
+                      .error_register = frame.data[2],
+                      .manufacturer = {}};
   std::copy_n(frame.data.begin() + 3, 5, emergency.manufacturer.begin());
   return emergency;
 }

@@ -12,7 +12,7 @@ namespace edgepose {
 enum class FaultKind : uint8_t {
   kNone,
   kStopRequested,
-  kSetUp,            ///< a drive could not be set up; the master's set_up_error() says why
+  kSetUp,  ///< a drive could not be set up; the master's set_up_error() says why
   kBusOff,
   kBusDown,
   kNoRoom,           ///< the bus took no frame, several cycles in a row
@@ -28,7 +28,7 @@ enum class FaultKind : uint8_t {
   kUnexpectedState,  ///< a drive has left operation enabled
   kStuck,            ///< a drive's state no longer changes although its target does
   kFollowingError,
-  kBadSetPoint,      ///< not finite, or further away than the axis can get in a cycle
+  kBadSetPoint,  ///< not finite, or further away than the axis can get in a cycle
 };
 
 struct Fault {

@@ -19,8 +19,8 @@ Integer read_little_endian(std::span<const uint8_t> bytes, size_t offset) {
 template <class Integer>
 void write_little_endian(Integer value, std::span<uint8_t> bytes, size_t offset) {
   for (size_t i = 0; i < sizeof(Integer); ++i)
-    bytes[offset + i] =
-        static_cast<uint8_t>(static_cast<uint64_t>(static_cast<std::make_unsigned_t<Integer>>(value)) >> 8 * i);
+    bytes[offset + i] = static_cast<uint8_t>(
+        static_cast<uint64_t>(static_cast<std::make_unsigned_t<Integer>>(value)) >> 8 * i);
 }
 
 }  // namespace edgepose

@@ -10,13 +10,20 @@ namespace edgepose {
 
 const char* name_of(MasterPhase phase) {
   switch (phase) {
-    case MasterPhase::kIdle: return "idle";
-    case MasterPhase::kSettingUp: return "setting up";
-    case MasterPhase::kReady: return "ready";
-    case MasterPhase::kEnabling: return "enabling";
-    case MasterPhase::kEnabled: return "enabled";
-    case MasterPhase::kDisabling: return "disabling";
-    case MasterPhase::kFault: return "fault";
+    case MasterPhase::kIdle:
+      return "idle";
+    case MasterPhase::kSettingUp:
+      return "setting up";
+    case MasterPhase::kReady:
+      return "ready";
+    case MasterPhase::kEnabling:
+      return "enabling";
+    case MasterPhase::kEnabled:
+      return "enabled";
+    case MasterPhase::kDisabling:
+      return "disabling";
+    case MasterPhase::kFault:
+      return "fault";
   }
   return "unknown";
 }
@@ -107,7 +114,8 @@ void Master::latch(const Fault& fault) {
 
 const ArmState& Master::cycle(int64_t now_ns, const PerAxis<double>& set_points) {
   ++counters_.cycles;
-  const bool was_latched = state_.phase == MasterPhase::kFault, was_enabled = state_.phase == MasterPhase::kEnabled;
+  const bool was_latched = state_.phase == MasterPhase::kFault,
+             was_enabled = state_.phase == MasterPhase::kEnabled;
   receive(now_ns);
   if (state_.phase == MasterPhase::kSettingUp) continue_set_up(now_ns);
   if (communicating_) judge(now_ns);
@@ -195,7 +203,8 @@ void Master::transit(int64_t now_ns) {
     if (axis.state == goal) {
       since_ns_[i] = now_ns;
     } else if (now_ns - since_ns_[i] > static_cast<int64_t>(options_.transition_timeout * 1e9)) {
-      Fault late{.kind = FaultKind::kTransition, .node = axis.node, .time_ns = now_ns, .found = axis.statusword};
+      Fault late{
+          .kind = FaultKind::kTransition, .node = axis.node, .time_ns = now_ns, .found = axis.statusword};
       late.expected = enabling ? next_state_towards_enabled(axis.state) : goal;
       late.after_ns = now_ns - since_ns_[i];
       latch(late);
@@ -209,7 +218,8 @@ void Master::take_set_points(const PerAxis<double>& set_points, int64_t now_ns) 
   PerAxis<int32_t> next{};
   for (size_t i = 0; i < next.size(); ++i) {
     // A tenth more than the limit, and a count for rounding.
-    const double way = 1.1 * options_.max_velocity[i] * options_.cycle * options_.scale.counts_per_radian() + 1;
+    const double way =
+        1.1 * options_.max_velocity[i] * options_.cycle * options_.scale.counts_per_radian() + 1;
     const bool usable = std::isfinite(set_points[i]) && set_points[i] >= options_.min_position[i] - 1e-6 &&
                         set_points[i] <= options_.max_position[i] + 1e-6;
     next[i] = usable ? options_.scale.to_counts(set_points[i]) : targets_[i];
@@ -228,7 +238,8 @@ void Master::hold() {
 uint16_t Master::controlword_for(size_t axis) {
   const DriveState state = state_.axes[axis].state;
   switch (state_.phase) {
-    case MasterPhase::kEnabled: return controlword::kEnableOperation;
+    case MasterPhase::kEnabled:
+      return controlword::kEnableOperation;
     case MasterPhase::kEnabling: {
       const uint16_t word = controlword_towards_enabled(state);
       // A rising edge resets a fault: one every eight cycles.
@@ -238,10 +249,12 @@ uint16_t Master::controlword_for(size_t axis) {
     case MasterPhase::kFault: {
       if (state != DriveState::kOperationEnabled && state != DriveState::kQuickStopActive) break;
       // One that does not obey loses its power: the brake falls.
-      const bool obeys = state == DriveState::kQuickStopActive || cycles_in_phase_[axis]++ < options_.stop_cycles;
+      const bool obeys =
+          state == DriveState::kQuickStopActive || cycles_in_phase_[axis]++ < options_.stop_cycles;
       return obeys ? controlword::kQuickStop : controlword::kDisableVoltage;
     }
-    default: break;
+    default:
+      break;
   }
   return controlword::kDisableVoltage;
 }
@@ -266,7 +279,8 @@ void Master::produce(int64_t now_ns) {
   if (took_frames_ || state_.phase == MasterPhase::kFault) sync_sent_ = send(sync_frame(now_ns));
   counters_.syncs += sync_sent_;
   no_room_ = took_frames_ ? 0 : no_room_ + 1;
-  if (no_room_ >= options_.max_no_room) latch(is_down_ ? FaultKind::kBusDown : FaultKind::kNoRoom, now_ns, static_cast<uint32_t>(no_room_));
+  if (no_room_ >= options_.max_no_room)
+    latch(is_down_ ? FaultKind::kBusDown : FaultKind::kNoRoom, now_ns, static_cast<uint32_t>(no_room_));
 }
 
 bool Master::send(const CanFrame& frame) {

@@ -32,16 +32,16 @@ struct ArmState {
 
 struct MasterCounters {
   uint64_t cycles = 0, syncs = 0;
-  uint64_t not_sent = 0;       ///< frames that the bus did not take; they are never sent again
-  uint64_t further_faults = 0; ///< found while one was latched
+  uint64_t not_sent = 0;        ///< frames that the bus did not take; they are never sent again
+  uint64_t further_faults = 0;  ///< found while one was latched
 };
 
-/// CANopen master of a six-axis arm: CiA 402 drives in mode 8 (cyclic synchronous position). Whoever owns it calls
-/// cycle() every 5 ms, and that is all that happens: no thread, no clock, no waiting. Once it has been made,
-/// cycle() neither throws nor, the set-up apart, allocates. One thread.
+/// CANopen master of a six-axis arm: CiA 402 drives in mode 8 (cyclic synchronous position). Whoever owns it
+/// calls cycle() every 5 ms, and that is all that happens: no thread, no clock, no waiting. Once it has been
+/// made, cycle() neither throws nor, the set-up apart, allocates. One thread.
 ///
-/// A fault makes it tell all drives to stop in the same cycle; the first is kept, with the last 50 cycles, until
-/// reset(). This is no certified emergency stop.
+/// A fault makes it tell all drives to stop in the same cycle; the first is kept, with the last 50 cycles,
+/// until reset(). This is no certified emergency stop.
 class Master {
  public:
   /// `bus` must live longer. Throws std::invalid_argument if an option is out of range.
@@ -49,8 +49,8 @@ class Master {
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
 
-  /// Resets the drives' communication and sets them up anew, over the next cycles: kSettingUp, then kReady or a
-  /// fault. False (nothing happens) unless idle or ready.
+  /// Resets the drives' communication and sets them up anew, over the next cycles: kSettingUp, then kReady or
+  /// a fault. False (nothing happens) unless idle or ready.
   bool set_up(int64_t now_ns);
   /// From kReady over kEnabling to kEnabled.
   EnableResult enable(int64_t now_ns);
@@ -63,8 +63,8 @@ class Master {
   /// The axis knows its position again after its drive has booted.
   void confirm_homed(int axis);
 
-  /// Takes what has come, judges it, sends set points and SYNC. `set_points` [rad] are followed in kEnabled only,
-  /// where the first must be where the arm is: else they are ignored, and each axis told to stay.
+  /// Takes what has come, judges it, sends set points and SYNC. `set_points` [rad] are followed in kEnabled
+  /// only, where the first must be where the arm is: else they are ignored, and each axis told to stay.
   const ArmState& cycle(int64_t now_ns, const PerAxis<double>& set_points);
 
   const ArmState& state() const { return state_; }
@@ -102,9 +102,9 @@ class Master {
   PerAxis<int32_t> targets_{};  ///< [counts]
   PerAxis<uint16_t> controlwords_{};
   PerAxis<DriveState> last_states_{};
-  PerAxis<int64_t> since_ns_{};       ///< when each axis' state changed, while enabling or disabling
-  PerAxis<int> cycles_in_phase_{};    ///< for fault resets and stops, counted from the phase's beginning
-  bool communicating_ = false;        ///< drives are operational: SYNC runs
+  PerAxis<int64_t> since_ns_{};     ///< when each axis' state changed, while enabling or disabling
+  PerAxis<int> cycles_in_phase_{};  ///< for fault resets and stops, counted from the phase's beginning
+  bool communicating_ = false;      ///< drives are operational: SYNC runs
   bool sync_sent_ = false, took_frames_ = true, is_down_ = false;
   int no_room_ = 0, flooded_ = 0;
   int64_t last_cycle_ns_ = 0, next_heartbeat_ns_ = 0;

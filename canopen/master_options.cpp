@@ -11,7 +11,8 @@ namespace edgepose {
 namespace {
 
 void demand(bool fact, const std::string& field, const std::string& expected, double found) {
-  if (!fact) throw std::invalid_argument(field + ": expected " + expected + ", found " + std::to_string(found));
+  if (!fact)
+    throw std::invalid_argument(field + ": expected " + expected + ", found " + std::to_string(found));
 }
 
 }  // namespace
@@ -33,10 +34,13 @@ void MasterOptions::check() const {
   demand(ms >= 1 && ms <= 20 && std::abs(ms - std::round(ms)) < 1e-9, "cycle", "1 to 20 whole ms", cycle);
   demand(quick_stop_deceleration > 0 && quick_stop_deceleration < 1000, "quick_stop_deceleration",
          "0 to 1000 rad/s^2", quick_stop_deceleration);
-  demand(rpdo_timeout > cycle && rpdo_timeout <= 1, "rpdo_timeout", "more than a cycle, at most 1 s", rpdo_timeout);
-  demand(drive_heartbeat_timeout > drive_heartbeat && drive_heartbeat >= 0.001 && drive_heartbeat_timeout <= 10,
-         "drive_heartbeat_timeout", "more than drive_heartbeat, at most 10 s", drive_heartbeat_timeout);
-  demand(master_heartbeat_timeout > master_heartbeat && master_heartbeat >= cycle && master_heartbeat_timeout <= 10,
+  demand(rpdo_timeout > cycle && rpdo_timeout <= 1, "rpdo_timeout", "more than a cycle, at most 1 s",
+         rpdo_timeout);
+  demand(
+      drive_heartbeat_timeout > drive_heartbeat && drive_heartbeat >= 0.001 && drive_heartbeat_timeout <= 10,
+      "drive_heartbeat_timeout", "more than drive_heartbeat, at most 10 s", drive_heartbeat_timeout);
+  demand(master_heartbeat_timeout > master_heartbeat && master_heartbeat >= cycle &&
+             master_heartbeat_timeout <= 10,
          "master_heartbeat_timeout", "more than master_heartbeat, at most 10 s", master_heartbeat_timeout);
   demand(max_missed >= 1 && max_missed <= 20, "max_missed", "1 to 20", max_missed);
   demand(max_no_room >= 1 && max_no_room <= 20, "max_no_room", "1 to 20", max_no_room);

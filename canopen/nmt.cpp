@@ -6,10 +6,14 @@ namespace edgepose {
 
 const char* name_of(NmtState state) {
   switch (state) {
-    case NmtState::kBootUp: return "boot-up";
-    case NmtState::kStopped: return "stopped";
-    case NmtState::kOperational: return "operational";
-    case NmtState::kPreOperational: return "pre-operational";
+    case NmtState::kBootUp:
+      return "boot-up";
+    case NmtState::kStopped:
+      return "stopped";
+    case NmtState::kOperational:
+      return "operational";
+    case NmtState::kPreOperational:
+      return "pre-operational";
   }
   return "unknown";
 }
@@ -28,7 +32,8 @@ std::optional<NmtMessage> decode_nmt(const CanFrame& frame) {
     case NmtCommand::kStop:
     case NmtCommand::kEnterPreOperational:
     case NmtCommand::kResetNode:
-    case NmtCommand::kResetCommunication: return NmtMessage{.command = command, .node = frame.data[1]};
+    case NmtCommand::kResetCommunication:
+      return NmtMessage{.command = command, .node = frame.data[1]};
   }
   return std::nullopt;
 }
@@ -47,7 +52,8 @@ std::optional<NmtState> decode_heartbeat(const CanFrame& frame) {
     case NmtState::kBootUp:
     case NmtState::kStopped:
     case NmtState::kOperational:
-    case NmtState::kPreOperational: return state;
+    case NmtState::kPreOperational:
+      return state;
   }
   return std::nullopt;
 }

@@ -14,12 +14,16 @@ bool is_signed(ObjectType type) {
 size_t bytes_of(ObjectType type) {
   switch (type) {
     case ObjectType::kU8:
-    case ObjectType::kI8: return 1;
+    case ObjectType::kI8:
+      return 1;
     case ObjectType::kU16:
-    case ObjectType::kI16: return 2;
+    case ObjectType::kI16:
+      return 2;
     case ObjectType::kU32:
-    case ObjectType::kI32: return 4;
-    case ObjectType::kText: return 0;
+    case ObjectType::kI32:
+      return 4;
+    case ObjectType::kText:
+      return 0;
   }
   return 0;
 }

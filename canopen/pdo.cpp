@@ -6,7 +6,8 @@
 namespace edgepose {
 
 CanFrame target_frame(int node, const TargetPdo& target, int64_t now_ns) {
-  CanFrame frame{.id = static_cast<uint16_t>(cob_id::kRpdo1 + node), .size = 7, .data = {}, .time_ns = now_ns};
+  CanFrame frame{
+      .id = static_cast<uint16_t>(cob_id::kRpdo1 + node), .size = 7, .data = {}, .time_ns = now_ns};
   write_little_endian(target.controlword, frame.data, 0);
   write_little_endian(target.mode, frame.data, 2);
   write_little_endian(target.position, frame.data, 3);

@@ -21,8 +21,8 @@ struct MappedObject {
   }
 };
 
-/// The process data of each axis. The master writes these mappings into the drives; its own codecs, below, follow
-/// them (tests/canopen/pdo_test.cpp compares).
+/// The process data of each axis. The master writes these mappings into the drives; its own codecs, below,
+/// follow them (tests/canopen/pdo_test.cpp compares).
 inline constexpr std::array<MappedObject, 3> kRpdo1Mapping{
     {{object::kControlword, 16}, {object::kMode, 8}, {object::kTargetPosition, 32}}};
 inline constexpr std::array<MappedObject, 3> kTpdo1Mapping{
@@ -41,7 +41,7 @@ struct StatePdo {  ///< TPDO1, from the drive
   int8_t mode = 0;
   int32_t position = 0;  ///< [counts]
 };
-struct MotionPdo {  ///< TPDO2, from the drive
+struct MotionPdo {       ///< TPDO2, from the drive
   int32_t velocity = 0;  ///< [counts/s]
   int16_t torque = 0;    ///< [1/1000 of the rated torque]
 };

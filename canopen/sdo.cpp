@@ -31,7 +31,8 @@ Bytes segmented(uint8_t command, ObjectId id, uint32_t size) {
 Bytes segment(uint8_t command, bool toggle, bool last, std::span<const uint8_t> data) {
   const size_t size = std::min(data.size(), kMaxSegment);
   Bytes bytes{};
-  bytes[0] = static_cast<uint8_t>(command | (toggle ? kToggle : 0) | (kMaxSegment - size) << 1 | (last ? kLast : 0));
+  bytes[0] =
+      static_cast<uint8_t>(command | (toggle ? kToggle : 0) | (kMaxSegment - size) << 1 | (last ? kLast : 0));
   std::copy_n(data.begin(), size, bytes.begin() + 1);
   return bytes;
 }
@@ -44,7 +45,9 @@ Bytes abort(ObjectId id, SdoAbort reason) {
 
 ObjectId object_of(const Bytes& bytes) { return {read_little_endian<uint16_t>(bytes, 1), bytes[3]}; }
 
-SdoAbort reason_of(const Bytes& bytes) { return static_cast<SdoAbort>(read_little_endian<uint32_t>(bytes, 4)); }
+SdoAbort reason_of(const Bytes& bytes) {
+  return static_cast<SdoAbort>(read_little_endian<uint32_t>(bytes, 4));
+}
 
 std::span<const uint8_t> expedited_data(const Bytes& bytes) {
   const size_t unused = bytes[0] & kSizeGiven ? bytes[0] >> 2 & 3 : 0;

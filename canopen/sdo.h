@@ -6,8 +6,8 @@
 #include "canopen/objects.h"
 #include "canopen/sdo_abort.h"
 
-/// The eight bytes of SDO messages, expedited and segmented (CiA 301, 7.2.4.3). The upper three bits of the first
-/// are the command; it means different things in the two directions.
+/// The eight bytes of SDO messages, expedited and segmented (CiA 301, 7.2.4.3). The upper three bits of the
+/// first are the command; it means different things in the two directions.
 namespace edgepose::sdo {
 
 using Bytes = std::array<uint8_t, 8>;
@@ -15,7 +15,8 @@ using Bytes = std::array<uint8_t, 8>;
 /// From the client.
 inline constexpr uint8_t kDownloadSegment = 0x00, kDownload = 0x20, kUpload = 0x40, kUploadSegment = 0x60;
 /// From the server.
-inline constexpr uint8_t kSegmentOfUpload = 0x00, kSegmentTaken = 0x20, kUploadAnswer = 0x40, kDownloadTaken = 0x60;
+inline constexpr uint8_t kSegmentOfUpload = 0x00, kSegmentTaken = 0x20, kUploadAnswer = 0x40,
+                         kDownloadTaken = 0x60;
 /// From either.
 inline constexpr uint8_t kAbort = 0x80;
 

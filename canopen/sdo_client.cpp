@@ -35,7 +35,8 @@ void SdoClient::begin(ObjectId id, int64_t now_ns, int64_t timeout_ns, bool uplo
 }
 
 void SdoClient::send(const sdo::Bytes& bytes, int64_t now_ns) {
-  request_ = {.id = static_cast<uint16_t>(cob_id::kSdoRequest + node_), .size = 8, .data = bytes, .time_ns = now_ns};
+  request_ = {
+      .id = static_cast<uint16_t>(cob_id::kSdoRequest + node_), .size = 8, .data = bytes, .time_ns = now_ns};
   unsent_ = bus_.send(request_) != SendResult::kSent;
 }
 
@@ -114,7 +115,8 @@ void SdoClient::take_download(const sdo::Bytes& bytes, int64_t now_ns) {
     }
     return send_segment(now_ns);
   }
-  if (!segments_ || sdo::command_of(bytes) != sdo::kSegmentTaken) return fail(SdoAbort::kUnknownCommand, now_ns);
+  if (!segments_ || sdo::command_of(bytes) != sdo::kSegmentTaken)
+    return fail(SdoAbort::kUnknownCommand, now_ns);
   // toggle_ is already the next segment's.
   if (((bytes[0] & sdo::kToggle) != 0) == toggle_) return fail(SdoAbort::kToggle, now_ns);
   if (at_ >= data_.size())

@@ -8,8 +8,8 @@
 
 namespace edgepose {
 
-/// Reads and writes objects of one node, one transfer at a time, each with its deadline. Waits for nothing: who
-/// owns it passes in the node's answers and the time.
+/// Reads and writes objects of one node, one transfer at a time, each with its deadline. Waits for nothing:
+/// who owns it passes in the node's answers and the time.
 class SdoClient {
  public:
   enum class State : uint8_t { kIdle, kBusy, kDone, kAborted, kTimedOut };
@@ -22,7 +22,8 @@ class SdoClient {
 
   /// A frame with the node's answer (0x580 + node).
   void take(const CanFrame& frame, int64_t now_ns);
-  /// Looks at the deadline; sends what the bus had no room for (a request does not grow stale as a set-point does).
+  /// Looks at the deadline; sends what the bus had no room for (a request does not grow stale as a set-point
+  /// does).
   void tick(int64_t now_ns);
 
   State state() const { return state_; }

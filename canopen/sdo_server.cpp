@@ -16,12 +16,20 @@ std::optional<CanFrame> SdoServer::answer(const CanFrame& frame, int64_t now_ns)
 
 std::optional<sdo::Bytes> SdoServer::answer_to(const sdo::Bytes& request) {
   switch (sdo::command_of(request)) {
-    case sdo::kAbort: transfer_ = Transfer::kNone; return std::nullopt;
-    case sdo::kUpload: return begin_upload(sdo::object_of(request));
-    case sdo::kDownload: return begin_download(request);
-    case sdo::kUploadSegment: return next_segment(request);
-    case sdo::kDownloadSegment: return take_segment(request);
-    default: id_ = sdo::object_of(request); return refuse(SdoAbort::kUnknownCommand);
+    case sdo::kAbort:
+      transfer_ = Transfer::kNone;
+      return std::nullopt;
+    case sdo::kUpload:
+      return begin_upload(sdo::object_of(request));
+    case sdo::kDownload:
+      return begin_download(request);
+    case sdo::kUploadSegment:
+      return next_segment(request);
+    case sdo::kDownloadSegment:
+      return take_segment(request);
+    default:
+      id_ = sdo::object_of(request);
+      return refuse(SdoAbort::kUnknownCommand);
   }
 }
 
@@ -34,7 +42,8 @@ sdo::Bytes SdoServer::begin_upload(ObjectId id) {
   id_ = id;
   if (const SdoAbort refused = objects_.read(id, data_); refused != SdoAbort::kNone) return refuse(refused);
   transfer_ = Transfer::kNone;
-  if (!data_.empty() && data_.size() <= sdo::kMaxExpedited) return sdo::expedited(sdo::kUploadAnswer, id, data_);
+  if (!data_.empty() && data_.size() <= sdo::kMaxExpedited)
+    return sdo::expedited(sdo::kUploadAnswer, id, data_);
   transfer_ = Transfer::kUpload;
   at_ = 0;
   toggle_ = false;
@@ -63,7 +72,8 @@ sdo::Bytes SdoServer::begin_download(const sdo::Bytes& request) {
     const ObjectEntry* entry = objects_.find(id_);
     if (!(request[0] & sdo::kSizeGiven) && entry && bytes_of(entry->type) > 0)
       data = data.first(bytes_of(entry->type));
-    if (const SdoAbort refused = objects_.write(id_, data); refused != SdoAbort::kNone) return refuse(refused);
+    if (const SdoAbort refused = objects_.write(id_, data); refused != SdoAbort::kNone)
+      return refuse(refused);
     return sdo::plain(sdo::kDownloadTaken, id_);
   }
   announced_ = sdo::announced_size(request);
@@ -85,7 +95,8 @@ sdo::Bytes SdoServer::take_segment(const sdo::Bytes& request) {
   toggle_ = !toggle_;
   if (request[0] & sdo::kLast) {
     if (announced_ != 0 && announced_ != data_.size()) return refuse(SdoAbort::kWrongLength);
-    if (const SdoAbort refused = objects_.write(id_, data_); refused != SdoAbort::kNone) return refuse(refused);
+    if (const SdoAbort refused = objects_.write(id_, data_); refused != SdoAbort::kNone)
+      return refuse(refused);
     transfer_ = Transfer::kNone;
   }
   sdo::Bytes answer{};

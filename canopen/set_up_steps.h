@@ -23,7 +23,8 @@ struct SetUpStep {
   uint32_t mask = 0xffff'ffff;
 };
 
-/// The sequence for one axis (CiA 301, 7.3.1 and 7.5.2; CiA 402-2): identity, watchdogs, limits, mode, process data.
+/// The sequence for one axis (CiA 301, 7.3.1 and 7.5.2; CiA 402-2): identity, watchdogs, limits, mode,
+/// process data.
 std::vector<SetUpStep> set_up_steps(const MasterOptions& options, int axis);
 
 }  // namespace edgepose

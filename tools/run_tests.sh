@@ -77,7 +77,7 @@ if [ "$mode" != --quick ]; then
     run_tests build/asan ""
   else
     build asan tests/messaging/all tests/bus/all tests/canopen/all
-    run_tests build/asan "" messaging_test udpm_receiver_test bus_test canopen_test
+    run_tests build/asan "" messaging_test udpm_receiver_test bus_test canopen_test canopen_trace_test
   fi
 
   step "thread sanitizer"

@@ -22,7 +22,9 @@ using Kind = Received::Kind;
 constexpr int64_t kWall = 1'700'000'000'000'000'000;  ///< [ns] since 1970
 
 CanFrame numbered(int i) {
-  CanFrame frame{.id = static_cast<uint16_t>(0x180 + i % 0x600), .size = static_cast<uint8_t>(i % 9), .data = {},
+  CanFrame frame{.id = static_cast<uint16_t>(0x180 + i % 0x600),
+                 .size = static_cast<uint8_t>(i % 9),
+                 .data = {},
                  .time_ns = int64_t{i} * 1'000'000};
   for (uint8_t k = 0; k < frame.size; ++k) frame.data[k] = static_cast<uint8_t>(i + k);
   return frame;
@@ -125,12 +127,13 @@ TEST(Pcap, CutOffAnywhereItIsReadAsFarAsItGoes) {
 TEST(Pcap, OtherByteOrderAndNanoseconds) {
   const TemporaryFolder folder;
   const auto big = [](uint32_t value) {
-    return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
-                       static_cast<char>(value)};
+    return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16),
+                       static_cast<char>(value >> 8), static_cast<char>(value)};
   };
   const FrameRecord frame = to_record({.id = 0x77f, .size = 1, .data = {5}, .time_ns = 0});
-  const std::string bytes = big(0xa1b23c4d) + big(0x0002'0004) + big(0) + big(0) + big(16) + big(227) + big(7) +
-                            big(123456789) + big(16) + big(16) + std::string(frame.begin(), frame.end());
+  const std::string bytes = big(0xa1b23c4d) + big(0x0002'0004) + big(0) + big(0) + big(16) + big(227) +
+                            big(7) + big(123456789) + big(16) + big(16) +
+                            std::string(frame.begin(), frame.end());
   put(folder / "f.pcap", bytes);
   PcapReader reader(folder / "f.pcap");
   const Received read = reader.next();
@@ -166,7 +169,8 @@ TEST(Pcap, WhatIsNoCaptureOfCan) {
     PcapReader reader(folder / "ethernet");
     FAIL() << "taken";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("expected a capture of SocketCAN (link type 227), found link type 1"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("expected a capture of SocketCAN (link type 227), found link type 1"));
   }
 }
 

@@ -183,10 +183,12 @@ std::string refusal(const std::string& name) {
 
 TEST(OpenBus, BusesThatDoNotExistAreNamed) {
   EXPECT_THAT(refusal("nocan7"), testing::StartsWith("bus nocan7: expected a CAN"));
-  EXPECT_THAT(refusal("unix:/tmp/no/such/bus"), testing::StartsWith("bus unix:/tmp/no/such/bus: expected a bus that "
-                                                                    "can be joined, found No such file"));
+  EXPECT_THAT(refusal("unix:/tmp/no/such/bus"),
+              testing::StartsWith("bus unix:/tmp/no/such/bus: expected a bus that "
+                                  "can be joined, found No such file"));
   EXPECT_THAT(refusal("pcap:/tmp/no/such.pcap"), testing::HasSubstr("/tmp/no/such.pcap: expected a capture"));
-  EXPECT_THAT(refusal("tcp:1234"), testing::StartsWith("bus: expected can0, unix:/path or pcap:/file, found tcp:1234"));
+  EXPECT_THAT(refusal("tcp:1234"),
+              testing::StartsWith("bus: expected can0, unix:/path or pcap:/file, found tcp:1234"));
   EXPECT_THAT(refusal(""), testing::StartsWith("bus : expected"));
   EXPECT_THAT(refusal("unix:" + std::string(200, 'a')), testing::HasSubstr("1 to 107 bytes, found 200"));
 }

@@ -69,21 +69,23 @@ class ArmOnWire {
     move(velocity, 40);
     ASSERT_EQ(master.state().phase, MasterPhase::kEnabled) << master.fault_text();
   }
-  /// Cycles, moving on, from now until the controlword 02 has been on the wire for each of `nodes`; -1 if it was not
-  /// within `limit`.
-  int cycles_to_quick_stop(std::vector<int> nodes = {1, 2, 3, 4, 5, 6}, double velocity = 0.5, int limit = 100) {
+  /// Cycles, moving on, from now until the controlword 02 has been on the wire for each of `nodes`; -1 if it
+  /// was not within `limit`.
+  int cycles_to_quick_stop(std::vector<int> nodes = {1, 2, 3, 4, 5, 6}, double velocity = 0.5,
+                           int limit = 100) {
     const size_t from = wire.trace.size();
     for (int i = 1; i <= limit; ++i) {
       move(velocity, 1);
-      const bool all = std::all_of(nodes.begin(), nodes.end(), [&](int node) { return stop_sent(from, node); });
+      const bool all =
+          std::all_of(nodes.begin(), nodes.end(), [&](int node) { return stop_sent(from, node); });
       if (all) return i;
     }
     return -1;
   }
   bool stop_sent(size_t from, int node) const {
-    return std::any_of(wire.trace.begin() + static_cast<std::ptrdiff_t>(from), wire.trace.end(), [&](const auto& f) {
-      return f.id == cob_id::kRpdo1 + node && f.data[0] == 0x02 && f.data[1] == 0;
-    });
+    return std::any_of(
+        wire.trace.begin() + static_cast<std::ptrdiff_t>(from), wire.trace.end(),
+        [&](const auto& f) { return f.id == cob_id::kRpdo1 + node && f.data[0] == 0x02 && f.data[1] == 0; });
   }
   /// [ms] until no axis moves any more; -1 if one still does after `limit`.
   int ms_to_rest(int limit = 1000) {
@@ -96,7 +98,8 @@ class ArmOnWire {
     return -1;
   }
   size_t count(uint16_t id, size_t from = 0) const {
-    return static_cast<size_t>(std::count_if(wire.trace.begin() + static_cast<std::ptrdiff_t>(from), wire.trace.end(),
+    return static_cast<size_t>(std::count_if(wire.trace.begin() + static_cast<std::ptrdiff_t>(from),
+                                             wire.trace.end(),
                                              [&](const CanFrame& f) { return f.id == id; }));
   }
 

@@ -17,9 +17,14 @@ struct Row {
 
 /// CiA 402-2, "statusword and PDS FSA states".
 const std::vector<Row> kTable{
-    {kNotReady, 0x4f, 0x00},         {kSwitchOnDisabled, 0x4f, 0x40}, {kReadyToSwitchOn, 0x6f, 0x21},
-    {kSwitchedOn, 0x6f, 0x23},       {kOperationEnabled, 0x6f, 0x27}, {kQuickStopActive, 0x6f, 0x07},
-    {kFaultReactionActive, 0x4f, 0x0f}, {kFault, 0x4f, 0x08},
+    {kNotReady, 0x4f, 0x00},
+    {kSwitchOnDisabled, 0x4f, 0x40},
+    {kReadyToSwitchOn, 0x6f, 0x21},
+    {kSwitchedOn, 0x6f, 0x23},
+    {kOperationEnabled, 0x6f, 0x27},
+    {kQuickStopActive, 0x6f, 0x07},
+    {kFaultReactionActive, 0x4f, 0x0f},
+    {kFault, 0x4f, 0x08},
 };
 
 TEST(Cia402, EveryStatuswordIsWhatTheTableSays) {
@@ -59,7 +64,8 @@ TEST(Cia402, QuickStopFromEachState) {
   EXPECT_EQ(after_controlword(kSwitchedOn, 0x02, 0x07), kSwitchOnDisabled);
   EXPECT_EQ(after_controlword(kReadyToSwitchOn, 0x02, 0x06), kSwitchOnDisabled);
   EXPECT_EQ(after_controlword(kFault, 0x02, 0x0f), kFault);
-  EXPECT_EQ(after_controlword(kQuickStopActive, 0x0f, 0x02), kQuickStopActive) << "not straight back (transition 16)";
+  EXPECT_EQ(after_controlword(kQuickStopActive, 0x0f, 0x02), kQuickStopActive)
+      << "not straight back (transition 16)";
   EXPECT_EQ(after_controlword(kQuickStopActive, 0x00, 0x02), kSwitchOnDisabled);
 }
 

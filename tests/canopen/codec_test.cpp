@@ -48,7 +48,8 @@ TEST(Codec, NmtRoundTrip) {
       EXPECT_EQ(back->node, node);
     }
   for (const int state : {0, 4, 5, 127})
-    EXPECT_EQ(decode_heartbeat(heartbeat_frame(9, static_cast<NmtState>(state), 0)), static_cast<NmtState>(state));
+    EXPECT_EQ(decode_heartbeat(heartbeat_frame(9, static_cast<NmtState>(state), 0)),
+              static_cast<NmtState>(state));
   CanFrame wrong = heartbeat_frame(9, NmtState::kOperational, 0);
   wrong.data[0] = 6;
   EXPECT_FALSE(decode_heartbeat(wrong));
@@ -57,7 +58,9 @@ TEST(Codec, NmtRoundTrip) {
 TEST(Codec, EmergencyRoundTripAndText) {
   std::mt19937 random(1);
   for (int i = 0; i < kRounds; ++i) {
-    Emergency emergency{.code = static_cast<uint16_t>(random()), .error_register = static_cast<uint8_t>(random()), .manufacturer = {}};
+    Emergency emergency{.code = static_cast<uint16_t>(random()),
+                        .error_register = static_cast<uint8_t>(random()),
+                        .manufacturer = {}};
     for (uint8_t& byte : emergency.manufacturer) byte = static_cast<uint8_t>(random());
     const auto back = decode_emergency(emergency_frame(1 + i % 127, emergency, 0));
     ASSERT_TRUE(back);
@@ -145,7 +148,8 @@ TEST(Codec, SdoExpeditedBytes) {
     EXPECT_EQ(bytes[2], 0x10);
     EXPECT_EQ(bytes[3], 0);
     const auto back = sdo::expedited_data(bytes);
-    EXPECT_TRUE(std::equal(back.begin(), back.end(), data.begin(), data.begin() + static_cast<std::ptrdiff_t>(size)));
+    EXPECT_TRUE(
+        std::equal(back.begin(), back.end(), data.begin(), data.begin() + static_cast<std::ptrdiff_t>(size)));
   }
   EXPECT_EQ(sdo::plain(sdo::kUpload, {0x1018, 1})[0], 0x40);
   EXPECT_EQ(sdo::reason_of(sdo::abort({0x1018, 9}, SdoAbort::kNoSubIndex)), SdoAbort::kNoSubIndex);

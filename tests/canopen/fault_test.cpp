@@ -10,7 +10,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// [ms] from full speed (0.5 rad/s at 15 rad/s^2: 34 ms) to rest after the controlword is on the bus, in whole cycles.
+/// [ms] from full speed (0.5 rad/s at 15 rad/s^2: 34 ms) to rest after the controlword is on the bus, in
+/// whole cycles.
 constexpr int kStopMs = 50;
 
 TEST(Fault, KilledMasterDrivesStopByThemselves) {
@@ -19,7 +20,8 @@ TEST(Fault, KilledMasterDrivesStopByThemselves) {
   const int64_t killed = arm.now;
   arm.master_lives = false;
   const auto stopping = [](const auto& drive) { return drive->state() == DriveState::kQuickStopActive; };
-  while (!std::all_of(arm.drives.begin(), arm.drives.end(), stopping) && arm.now < killed + 1000 * kMs) arm.cycle();
+  while (!std::all_of(arm.drives.begin(), arm.drives.end(), stopping) && arm.now < killed + 1000 * kMs)
+    arm.cycle();
   EXPECT_LE((arm.now - killed) / kMs, 30);
   EXPECT_GT(arm.ms_to_rest(), 0);
   EXPECT_LE((arm.now - killed) / kMs, 150);
@@ -70,7 +72,8 @@ TEST(Fault, TenLostSyncsStop) {
   lose_syncs(arm, 10);
   EXPECT_EQ(arm.master.state().phase, MasterPhase::kFault);
   for (const auto& drive : arm.drives) EXPECT_EQ(drive->velocity(), 0);
-  // The drives' own watch over SYNC and the master's over TPDO1 are as patient as each other: either may be first.
+  // The drives' own watch over SYNC and the master's over TPDO1 are as patient as each other: either may be
+  // first.
   EXPECT_THAT(arm.master.fault().kind, testing::AnyOf(FaultKind::kLostState, FaultKind::kEmergency));
 }
 
@@ -267,9 +270,8 @@ TEST(Fault, FollowingErrorStopsWithinThreeCyclesOfTheWindow) {
   int beyond = 0;
   for (int i = 0; i < 200 && !arm.master.fault(); ++i) {
     arm.move(0.5, 1);
-    const bool flagged = std::any_of(arm.wire.trace.end() - 30, arm.wire.trace.end(), [](const CanFrame& f) {
-      return f.id == 0x182 && f.data[1] & 0x20;
-    });
+    const bool flagged = std::any_of(arm.wire.trace.end() - 30, arm.wire.trace.end(),
+                                     [](const CanFrame& f) { return f.id == 0x182 && f.data[1] & 0x20; });
     beyond += flagged;
   }
   EXPECT_EQ(arm.master.fault().kind, FaultKind::kFollowingError) << arm.master.fault_text();
@@ -317,7 +319,8 @@ TEST(Fault, DriveThatLeavesOperationStopsAll) {
   arm.wire.drop = nullptr;
   EXPECT_LE(arm.cycles_to_quick_stop({1, 3, 4, 5, 6}), 2);
   EXPECT_EQ(arm.master.fault().kind, FaultKind::kUnexpectedState);
-  EXPECT_THAT(arm.master.fault_text(), HasSubstr("node 2: unexpected state: expected operation enabled, found ready"));
+  EXPECT_THAT(arm.master.fault_text(),
+              HasSubstr("node 2: unexpected state: expected operation enabled, found ready"));
 }
 
 TEST(Fault, SecondNodeOfANumberInOperationStops) {

@@ -55,7 +55,8 @@ class LoopWire {
     if (drop && drop(frame)) return;
     trace.push_back(frame);
     for (const auto& port : ports_)
-      if (port.get() != &from) port->put({.kind = Received::Kind::kFrame, .event = BusEvent::kNone, .frame = frame});
+      if (port.get() != &from)
+        port->put({.kind = Received::Kind::kFrame, .event = BusEvent::kNone, .frame = frame});
   }
   void tell(Port& port, BusEvent event) {
     port.put({.kind = Received::Kind::kEvent, .event = event, .frame = {}});

@@ -20,7 +20,8 @@ class Sdo : public testing::Test {
     for (int i = 0; i < 1000 && client_.state() == SdoClient::State::kBusy; ++i) {
       for (Received got; (got = there_.receive(0)).kind == Received::Kind::kFrame;)
         if (const auto answer = server_.answer(got.frame, now_)) there_.send(*answer);
-      for (Received got; (got = here_.receive(0)).kind == Received::Kind::kFrame;) client_.take(got.frame, now_);
+      for (Received got; (got = here_.receive(0)).kind == Received::Kind::kFrame;)
+        client_.take(got.frame, now_);
       now_ += 1'000'000;
       client_.tick(now_);
     }
@@ -52,7 +53,9 @@ TEST_F(Sdo, ExpeditedUpload) {
   EXPECT_EQ(number_from(ObjectType::kU32, client_.data()), 0xed9);
 }
 
-TEST_F(Sdo, SegmentedUploadOfTheName) { EXPECT_EQ(read_text(object::kDeviceName), "edgepose simulated drive"); }
+TEST_F(Sdo, SegmentedUploadOfTheName) {
+  EXPECT_EQ(read_text(object::kDeviceName), "edgepose simulated drive");
+}
 
 TEST_F(Sdo, TextsOfEveryLengthThereAndBack) {
   std::mt19937 random(6);
@@ -116,7 +119,8 @@ TEST_F(Sdo, ARequestWaitsForRoomOnTheBus) {
 }
 
 TEST_F(Sdo, AnswersThatNobodyAskedForAreCounted) {
-  client_.take({.id = 0x584, .size = 8, .data = sdo::plain(sdo::kDownloadTaken, {0x6060, 0}), .time_ns = 0}, now_);
+  client_.take({.id = 0x584, .size = 8, .data = sdo::plain(sdo::kDownloadTaken, {0x6060, 0}), .time_ns = 0},
+               now_);
   EXPECT_EQ(client_.unasked(), 1u);
 }
 
@@ -127,7 +131,8 @@ TEST_F(Sdo, WrongToggleIsAborted) {
   ask(sdo::plain(sdo::kUpload, object::kDeviceName));
   ask(sdo::plain(sdo::kUploadSegment, {}));
   EXPECT_EQ(sdo::reason_of(ask(sdo::plain(sdo::kUploadSegment, {}))), SdoAbort::kToggle);
-  EXPECT_EQ(sdo::reason_of(ask(sdo::plain(sdo::kUploadSegment, {}))), SdoAbort::kUnknownCommand) << "no transfer any more";
+  EXPECT_EQ(sdo::reason_of(ask(sdo::plain(sdo::kUploadSegment, {}))), SdoAbort::kUnknownCommand)
+      << "no transfer any more";
 }
 
 TEST_F(Sdo, MoreThanAnnouncedIsRefused) {
@@ -136,8 +141,10 @@ TEST_F(Sdo, MoreThanAnnouncedIsRefused) {
   };
   const std::vector<uint8_t> seven(7, 0x41);
   ask(sdo::segmented(sdo::kDownload, object::kAxisName, 8));
-  EXPECT_EQ(sdo::reason_of(ask(sdo::segment(sdo::kDownloadSegment, false, true, seven))), SdoAbort::kWrongLength);
-  EXPECT_EQ(sdo::reason_of(ask(sdo::segmented(sdo::kDownload, object::kAxisName, 1 << 30))), SdoAbort::kOutOfMemory);
+  EXPECT_EQ(sdo::reason_of(ask(sdo::segment(sdo::kDownloadSegment, false, true, seven))),
+            SdoAbort::kWrongLength);
+  EXPECT_EQ(sdo::reason_of(ask(sdo::segmented(sdo::kDownload, object::kAxisName, 1 << 30))),
+            SdoAbort::kOutOfMemory);
   EXPECT_EQ(read_text(object::kAxisName), "");
 }
 

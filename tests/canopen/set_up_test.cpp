@@ -30,13 +30,15 @@ TEST(SetUp, NodeThatIsNotThere) {
 TEST(SetUp, NodeThatDoesNotAnswer) {
   ArmOnWire arm;
   arm.drives[3]->provoke(Provocation::kNoSdo);
-  EXPECT_EQ(failing_set_up(arm), "node 4: expected device profile (1000:00) to be 0x192, found no answer after 300 ms");
+  EXPECT_EQ(failing_set_up(arm),
+            "node 4: expected device profile (1000:00) to be 0x192, found no answer after 300 ms");
 }
 
 TEST(SetUp, WrongVendorAndProduct) {
   for (const auto& [vendor, product, text] :
        {std::tuple{0x9a8bu, 0x402u, "node 2: expected vendor (1018:01) to be 0xed9, found 0x9a8b after 5 ms"},
-        std::tuple{0xed9u, 0x403u, "node 2: expected product (1018:02) to be 0x402, found 0x403 after 5 ms"}}) {
+        std::tuple{0xed9u, 0x403u,
+                   "node 2: expected product (1018:02) to be 0x402, found 0x403 after 5 ms"}}) {
     ArmOnWire arm;
     DriveOptions other;
     other.node = 2;
@@ -59,7 +61,8 @@ TEST(SetUp, TwoNodesOfOneNumber) {
   DriveOptions twin;
   twin.node = 5;
   arm.drives.push_back(std::make_unique<Drive>(arm.wire.port(), twin, arm.now));
-  EXPECT_EQ(failing_set_up(arm), "node 5: expected one drive of this number, found two of them booted after 0 ms");
+  EXPECT_EQ(failing_set_up(arm),
+            "node 5: expected one drive of this number, found two of them booted after 0 ms");
   EXPECT_EQ(arm.master.fault().kind, FaultKind::kDuplicateNode);
 }
 
@@ -96,9 +99,10 @@ TEST(SetUp, AnAbortIsToldInTheStandardsWords) {
     liar.send({.id = 0x581, .size = 8, .data = abort, .time_ns = frame.time_ns});
     return true;
   };
-  EXPECT_EQ(failing_set_up(arm),
-            "node 1: expected mode (6060:00) to take 0x8, found abort 0x6090030 (invalid value for the parameter) "
-            "after 0 ms");
+  EXPECT_EQ(
+      failing_set_up(arm),
+      "node 1: expected mode (6060:00) to take 0x8, found abort 0x6090030 (invalid value for the parameter) "
+      "after 0 ms");
 }
 
 TEST(SetUp, GoesThroughFromEveryStateOfTheDrives) {
@@ -125,7 +129,8 @@ TEST(SetUp, OneFrameLostIsOneTimeoutThatIsNamed) {
     lost = lost || this_one;
     return this_one;
   };
-  EXPECT_EQ(failing_set_up(arm), "node 6: expected heartbeat (1017:00) to take 0x28, found no answer after 300 ms");
+  EXPECT_EQ(failing_set_up(arm),
+            "node 6: expected heartbeat (1017:00) to take 0x28, found no answer after 300 ms");
 }
 
 }  // namespace

@@ -80,7 +80,8 @@ TEST_F(Trace, NmtResetsAndStartsEachNode) {
 }
 
 TEST_F(Trace, HeartbeatsSayBootUpThenPreOperationalThenOperational) {
-  const std::string lines = tshark("-Y 'canopen.nmt_guard.state && canopen.node_id == 3' -T fields -e canopen.nmt_guard.state");
+  const std::string lines =
+      tshark("-Y 'canopen.nmt_guard.state && canopen.node_id == 3' -T fields -e canopen.nmt_guard.state");
   std::istringstream read(lines);
   std::vector<int> states;
   for (std::string line; std::getline(read, line);) {
@@ -88,7 +89,8 @@ TEST_F(Trace, HeartbeatsSayBootUpThenPreOperationalThenOperational) {
     if (states.empty() || states.back() != state) states.push_back(state);
   }
   // Booted once when it was powered and once when the master reset it.
-  EXPECT_THAT(states, testing::AnyOf(testing::ElementsAre(0, 127, 5), testing::ElementsAre(0, 127, 0, 127, 5)));
+  EXPECT_THAT(states,
+              testing::AnyOf(testing::ElementsAre(0, 127, 5), testing::ElementsAre(0, 127, 0, 127, 5)));
   EXPECT_EQ(count("canopen.nmt_guard.state && canopen.node_id == 127"), on_wire(0x77f)) << "the master's own";
 }
 
@@ -96,16 +98,17 @@ TEST_F(Trace, SdoReadsTheIdentityAndAbortsNothing) {
   EXPECT_EQ(count("canopen.sdo.main_idx == 0x1018 && canopen.sdo.sub_idx == 1 && canopen.sdo.ccs == 2"), 6u);
   EXPECT_EQ(count("canopen.sdo.main_idx == 0x1018 && canopen.sdo.sub_idx == 1 && canopen.sdo.scs == 2"), 6u);
   EXPECT_EQ(count("canopen.sdo.abort_code"), 0u);
-  const std::string vendor = tshark("-V -Y 'canopen.sdo.main_idx == 0x1018 && canopen.sdo.sub_idx == 1 && canopen.sdo.scs == 2 && canopen.node_id == 1'");
+  const std::string vendor = tshark(
+      "-V -Y 'canopen.sdo.main_idx == 0x1018 && canopen.sdo.sub_idx == 1 && canopen.sdo.scs == 2 && "
+      "canopen.node_id == 1'");
   EXPECT_THAT(vendor, testing::HasSubstr("d90e0000"));
   EXPECT_EQ(count("canopen.sdo.main_idx == 0x6007 && canopen.sdo.ccs == 1"), 6u);
 }
 
 TEST_F(Trace, PdosAndSyncOfEveryCycle) {
-  const std::string names = tshark("-T fields -e canopen.function_code -e canopen.cob_id");
   EXPECT_EQ(count("canopen.cob_id == 0x080"), on_wire(0x080));
   EXPECT_GT(on_wire(0x080), 60u);
-  for (const uint16_t id : {0x201, 0x186, 0x283}) {
+  for (const uint16_t id : std::array<uint16_t, 3>{0x201, 0x186, 0x283}) {
     char filter[64];
     std::snprintf(filter, sizeof(filter), "canopen.cob_id == 0x%x && canopen.pdo.data.bytes", unsigned{id});
     EXPECT_EQ(count(filter), on_wire(id));
