@@ -17,15 +17,17 @@ forbid() {
 }
 
 # Each layer includes only layers below it.
-forbid common '(matcher|messaging|files|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'common includes no other folder'
-forbid matcher '(common|messaging|files|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'the matcher includes only matcher/'
-forbid messaging '(files|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'messaging stands below these'
-forbid settings '(messaging|planning|reporting|render|evaluation|client|server|bench|tests)/' 'settings stands below these'
-forbid planning '(messaging|settings|reporting|render|evaluation|client|server|bench|tests)/' 'planning stands below these'
-forbid reporting '(common|files|messaging|settings|planning|render|evaluation|client|server|bench|tests)/' 'reporting knows the matcher only'
-forbid files '(messaging|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'files stands below these'
-forbid render '(messaging|settings|planning|reporting|evaluation|client|server|bench|tests)/' 'render stands below these'
-forbid evaluation '(client|server|bench|tests)/' 'evaluation stands below these'
+forbid common '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'common includes no other folder'
+forbid matcher '(common|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'the matcher includes only matcher/'
+forbid messaging '(files|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'messaging stands below these'
+forbid settings '(messaging|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'settings stands below these'
+forbid planning '(messaging|settings|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'planning stands below these'
+forbid reporting '(common|files|messaging|settings|planning|render|evaluation|bus|canopen|client|server|bench|tests)/' 'reporting knows the matcher only'
+forbid files '(messaging|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'files stands below these'
+forbid render '(messaging|settings|planning|reporting|evaluation|bus|canopen|client|server|bench|tests)/' 'render stands below these'
+forbid evaluation '(bus|canopen|client|server|bench|tests)/' 'evaluation stands below these'
+forbid bus '(matcher|messaging|files|settings|planning|reporting|render|evaluation|canopen|client|server|bench|tests)/' 'the bus knows common only'
+forbid canopen '(matcher|messaging|files|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'CANopen knows common and the bus'
 forbid client '(server|bench|tests)/' 'client and server never include each other'
 forbid server '(client|bench|tests)/' 'client and server never include each other'
 
@@ -48,8 +50,8 @@ fi
 # Headers are guarded, and included with their folder.
 while IFS= read -r header; do
   head -n 1 "$header" | grep -q '^#pragma once$' || { echo "$header: does not start with #pragma once"; faults=1; }
-done < <(find common matcher messaging files settings planning reporting render evaluation client bench server -name '*.h' 2>/dev/null)
-bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher messaging files settings planning reporting server render evaluation client bench)
+done < <(find common matcher messaging files settings planning reporting bus canopen render evaluation client bench server -name '*.h' 2>/dev/null)
+bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher messaging files settings planning reporting bus canopen server render evaluation client bench)
 if [ -n "$bare" ]; then
   printf '%s\n   include as "folder/file.h"\n' "$bare"
   faults=1

@@ -76,8 +76,8 @@ if [ "$mode" != --quick ]; then
     build asan
     run_tests build/asan ""
   else
-    build asan tests/messaging/all
-    run_tests build/asan "" messaging_test udpm_receiver_test
+    build asan tests/messaging/all tests/bus/all tests/canopen/all
+    run_tests build/asan "" messaging_test udpm_receiver_test bus_test canopen_test canopen_trace_test
   fi
 
   step "thread sanitizer"
