@@ -11,7 +11,9 @@ struct ArmDraws {
   std::mt19937_64 random;
   explicit ArmDraws(uint64_t seed) : random(seed) {}
 
-  double between(double low, double high) { return low + (high - low) * (random() >> 11) * 0x1p-53; }
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  }
   JointVector joints(const JointVector& low, const JointVector& high) {
     JointVector values;
     for (int i = 0; i < kJoints; ++i) values[i] = between(low[i], high[i]);

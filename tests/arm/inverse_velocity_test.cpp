@@ -92,7 +92,9 @@ TEST(InverseVelocity, LeavesASingularitySlowly) {
   bool left = false;
   for (int i = 0; i < 20000 && !left; ++i) {
     const InverseVelocity wanted = inverse_velocity(arm, state.position, along(inwards, 0.05), kOptions);
-    if (wanted.condition > kOptions.stop_condition) EXPECT_LE(wanted.share, kOptions.leaving_share);
+    if (wanted.condition > kOptions.stop_condition) {
+      EXPECT_LE(wanted.share, kOptions.leaving_share);
+    }
     state = limit_motion(arm, state, wanted.velocity, kTip, options).next;
     left = wanted.condition < kOptions.slow_condition;
   }

@@ -121,7 +121,7 @@ TEST(RigidMotion, CarriedTwistIsThatOfTheOtherFrame) {
     camera << draws.vector(1), draws.vector(1);
     // Both frames, moved for a moment by their twists, must still stand alike to each other.
     constexpr double kStep = 1e-6;
-    const auto moved = [](const Twist& twist) {
+    const auto moved = [&](const Twist& twist) {
       return rigid_transform(rotation_matrix(twist.tail<3>() * kStep), twist.head<3>() * kStep);
     };
     const RigidTransform flange = moved(carried_twist(flange_T_camera, camera));
