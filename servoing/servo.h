@@ -88,9 +88,10 @@ class Servo {
   ServoState state() const { return state_; }
   FaultCause fault() const { return fault_; }
   const std::string& fault_detail() const { return fault_detail_; }
+  /// Up to 50; while in kFault those that led to it.
   const std::deque<ServoSample>& last_samples() const {
-    return samples_;
-  }  ///< up to 50; those before the fault
+    return state_ == ServoState::kFault ? fault_samples_ : samples_;
+  }
   const PoseGate& gate() const { return gate_; }
 
  private:

@@ -94,7 +94,7 @@ TEST(Limits, NoneIsBrokenByRandomGoalsOfTheTool) {
   int64_t cycles = 0, held_by_joint = 0, held_by_tip = 0, near_singular = 0;
   JointState state{inside(arm, options, draws), JointVector::Zero(), JointVector::Zero()};
   TipLimit tip{drill_tip(), 0.05};
-  for (int target = 0; target < targets(30000); ++target) {
+  for (int target = 0; target < targets(100000); ++target) {
     if (target % 100 == 0) {
       state = {inside(arm, options, draws), JointVector::Zero(), JointVector::Zero()};
       tip.speed = target % 200 == 0 ? 0.05 : 0.005;

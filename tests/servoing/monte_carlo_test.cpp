@@ -33,8 +33,8 @@ void set_wilson(Summary& summary, int hits) {
   const double p = hits / n, middle = (p + z * z / (2 * n)) / (1 + z * z / n);
   const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   summary.within = p;
-  summary.within_low = middle - half;
-  summary.within_high = middle + half;
+  summary.within_low = std::max(0.0, middle - half);
+  summary.within_high = std::min(1.0, middle + half);
 }
 
 Summary measure(const char* name, const TrialSetup& setup) {

@@ -142,7 +142,7 @@ TEST(ServoLoop, StopComesToRestAndStays) {
   Simulation sim;
   sim.arm_and_go();
   sim.run(1.5);
-  ASSERT_GT(sim.fastest_tip, 0.03) << "under way";
+  ASSERT_GT(sim.fastest_tip, 0.02) << "under way";
   EXPECT_EQ(sim.servo.reset(), "reset is refused while the arm comes to rest");
   EXPECT_EQ(sim.servo.stop(), "");
   sim.run(0.3);
@@ -221,11 +221,13 @@ TEST(ServoLoop, AFirstPoseThatIsWrongMovesNothing) {
   Simulation sim;
   const JointVector start = sim.joints;
   sim.tamper = [](PoseReading& r) {
-    if (r.sequence == 1) r.camera_T_model.translation().x() += 0.05;
+    if (r.sequence <= 2) r.camera_T_model.translation().x() += 0.05;
   };
   sim.arm_and_go();
   sim.run(2);
   EXPECT_EQ(sim.joints, start) << "the others contradict it: nothing is believed";
+  EXPECT_EQ(sim.verdicts[static_cast<size_t>(PoseVerdict::kTaken)], 1);
+  EXPECT_GT(sim.verdicts[static_cast<size_t>(PoseVerdict::kJumped)], 5);
 }
 
 TEST(ServoLoop, GoalOutOfReachIsNamed) {
@@ -240,22 +242,16 @@ TEST(ServoLoop, GoalOutOfReachIsNamed) {
 
 TEST(ServoLoop, GoalBeyondAJointsLimitIsNamed) {
   Simulation sim;
-  sim.joints[5] = 2.9;  // 0.04 rad from the limit less its margin
-  const RigidTransform tool = sim.base_T_tool();
+  sim.joints[0] = 2.8;  // 0.14 rad from the limit less its margin; the goal is 0.3 rad around the base
   const RigidTransform hole = model_T_tool_goal(sim.goal.entry, sim.goal.axis, 0, RigidTransform::Identity());
-  const RigidTransform ahead = rigid_transform(Eigen::Matrix3d::Identity(), {0, 0, 0.06});
-  // Moving the tool sideways about the base's vertical while it keeps its direction turns the last joint.
-  sim.base_T_model = Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitZ()) * tool * ahead *
-                     Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()) * hole.inverse();
-  RigidTransform other = sim.base_T_model;
+  sim.base_T_model = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) * sim.base_T_tool() * hole.inverse();
   sim.arm_and_go();
-  sim.run_until(ServoState::kFault, 60);
-  if (sim.servo.fault() == FaultCause::kNone) {
-    sim = Simulation();
-    GTEST_FAIL() << "expected to be held by joint 6";
-  }
+  double farthest = 0;
+  while (sim.servo.state() != ServoState::kFault && sim.now < 110)
+    farthest = std::max(farthest, sim.step().command.position[0]);
   EXPECT_EQ(sim.servo.fault(), FaultCause::kJointLimit) << fault_name(sim.servo.fault());
-  EXPECT_LE(sim.joints[5], 2.94 + 1e-9);
+  EXPECT_LE(farthest, 2.94 + 1e-9);
+  EXPECT_GT(farthest, 2.9);
 }
 
 TEST(ServoLoop, ToolTurnedAwayIsNamed) {
