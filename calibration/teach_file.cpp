@@ -9,11 +9,11 @@
 namespace edgepose {
 namespace {
 
-constexpr size_t kMaxBytes = 64u << 20;
+constexpr size_t kMaxTaughtBytes = 64u << 20;
 constexpr size_t kMaxReferences = 1000, kMaxPoses = 100000;
-constexpr double kMaxInModel = 5.0;  // [m] models are up to 5 m large
-constexpr double kMaxSight = 10.0;   // [m] of a depth camera
-constexpr double kMaxTool = 2.0;     // [m] of the tool from the camera: both are on the flange
+constexpr double kMaxInModel = 5.0;     // [m] models are up to 5 m large
+constexpr double kMaxFromModel = 10.0;  // [m] of a depth camera
+constexpr double kMaxTool = 2.0;        // [m] of the tool from the camera: both are on the flange
 
 TaughtReference reference_from(const JsonNode& node) {
   TaughtReference reference;
@@ -22,11 +22,11 @@ TaughtReference reference_from(const JsonNode& node) {
   const JsonNode poses = node.at("camera_T_model");
   const std::vector<JsonNode> items = poses.items();
   if (items.empty() || items.size() > kMaxPoses) poses.fail("1 to 100000 poses");
-  for (const JsonNode& pose : items) reference.camera_T_model.push_back(transform_from(pose, kMaxSight));
+  for (const JsonNode& pose : items) reference.camera_T_model.push_back(transform_from(pose, kMaxFromModel));
   return reference;
 }
 
-TaughtTool::Residual residual_at(const JsonNode& node) {
+TaughtTool::Residual taught_residual(const JsonNode& node) {
   TaughtTool::Residual residual;
   residual.name = name_from(node.at("name"));
   residual.poses = node.at("poses").integer();
@@ -37,7 +37,7 @@ TaughtTool::Residual residual_at(const JsonNode& node) {
   return residual;
 }
 
-nlohmann::ordered_json residual_json(const TaughtTool::Residual& residual) {
+nlohmann::ordered_json taught_residual_json(const TaughtTool::Residual& residual) {
   nlohmann::ordered_json json;
   json["name"] = residual.name;
   json["poses"] = residual.poses;
@@ -73,7 +73,8 @@ TeachRecord parse_teach_record(std::string_view text, const std::string& name) {
 }
 
 TeachRecord read_teach_record(const std::filesystem::path& path) {
-  return parse_teach_record(read_whole_file(path, "a teaching record (JSON)", kMaxBytes), path.string());
+  return parse_teach_record(read_whole_file(path, "a teaching record (JSON)", kMaxTaughtBytes),
+                            path.string());
 }
 
 TaughtFile parse_taught(std::string_view text, const std::string& name) {
@@ -84,12 +85,12 @@ TaughtFile parse_taught(std::string_view text, const std::string& name) {
   file.made = time_from(root.at("made"));
   file.model = name_from(root.at("model"));
   file.taught.camera_T_tool = transform_from(root.at("camera_T_tool"), kMaxTool);
-  for (const JsonNode& node : references_of(root)) file.taught.residuals.push_back(residual_at(node));
+  for (const JsonNode& node : references_of(root)) file.taught.residuals.push_back(taught_residual(node));
   return file;
 }
 
 TaughtFile read_taught(const std::filesystem::path& path) {
-  return parse_taught(read_whole_file(path, "a taught tool (JSON)", kMaxBytes), path.string());
+  return parse_taught(read_whole_file(path, "a taught tool (JSON)", kMaxTaughtBytes), path.string());
 }
 
 std::string format_taught(const TaughtFile& file) {
@@ -100,7 +101,7 @@ std::string format_taught(const TaughtFile& file) {
   json["camera_T_tool"] = transform_json(file.taught.camera_T_tool);
   json["references"] = nlohmann::ordered_json::array();
   for (const TaughtTool::Residual& residual : file.taught.residuals)
-    json["references"].push_back(residual_json(residual));
+    json["references"].push_back(taught_residual_json(residual));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
