@@ -17,17 +17,20 @@ forbid() {
 }
 
 # Each layer includes only layers below it.
-forbid common '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'common includes no other folder'
-forbid matcher '(common|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'the matcher includes only matcher/'
-forbid messaging '(files|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'messaging stands below these'
-forbid settings '(messaging|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'settings stands below these'
-forbid planning '(messaging|settings|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'planning stands below these'
-forbid reporting '(common|files|messaging|settings|planning|render|evaluation|bus|canopen|client|server|bench|tests)/' 'reporting knows the matcher only'
-forbid files '(messaging|settings|planning|reporting|render|evaluation|bus|canopen|client|server|bench|tests)/' 'files stands below these'
-forbid render '(messaging|settings|planning|reporting|evaluation|bus|canopen|client|server|bench|tests)/' 'render stands below these'
-forbid evaluation '(bus|canopen|client|server|bench|tests)/' 'evaluation stands below these'
-forbid bus '(matcher|messaging|files|settings|planning|reporting|render|evaluation|canopen|client|server|bench|tests)/' 'the bus knows common only'
-forbid canopen '(matcher|messaging|files|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'CANopen knows common and the bus'
+forbid common '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'common includes no other folder'
+forbid matcher '(common|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'the matcher includes only matcher/'
+forbid messaging '(files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'messaging stands below these'
+forbid settings '(messaging|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'settings stands below these'
+forbid planning '(messaging|settings|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'planning stands below these'
+forbid reporting '(common|files|messaging|settings|planning|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'reporting knows the matcher only'
+forbid files '(messaging|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'files stands below these'
+forbid render '(messaging|settings|planning|reporting|evaluation|bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'render stands below these'
+forbid evaluation '(bus|canopen|arm|servoing|calibration|client|server|bench|tests)/' 'evaluation stands below these'
+forbid bus '(arm|servoing|calibration|matcher|messaging|files|settings|planning|reporting|render|evaluation|canopen|client|server|bench|tests)/' 'the bus knows common only'
+forbid canopen '(arm|servoing|calibration|matcher|messaging|files|settings|planning|reporting|render|evaluation|client|server|bench|tests)/' 'CANopen knows common and the bus'
+forbid arm '(messaging|files|settings|planning|reporting|bus|canopen|servoing|calibration|render|evaluation|client|server|bench|tests)/' 'arm stands below these'
+forbid servoing '(messaging|files|settings|planning|reporting|bus|canopen|calibration|render|evaluation|client|server|bench|tests)/' 'servoing stands below these'
+forbid calibration '(messaging|settings|planning|reporting|bus|canopen|render|evaluation|client|server|bench|tests)/' 'calibration stands below these'
 forbid client '(server|bench|tests)/' 'client and server never include each other'
 forbid server '(client|bench|tests)/' 'client and server never include each other'
 
@@ -40,6 +43,17 @@ if [ -n "$outside" ]; then
 fi
 forbid matcher '(fstream|filesystem|iostream|cstdio)>' 'the matcher neither reads nor writes files, nor prints'
 
+# So is what moves an arm: state and time come in, motion comes out.
+outside=$(grep -rnE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include' arm servoing |
+  grep -vE 'include[[:space:]]*("(common/error\.h|matcher/types\.h|arm/|servoing/)|<Eigen/|<[a-z_0-9]+>)')
+if [ -n "$outside" ]; then
+  printf '%s\n   arm and servoing know Eigen and the standard library only\n' "$outside"
+  faults=1
+fi
+for pure in arm servoing; do
+  forbid "$pure" '(fstream|filesystem|iostream|cstdio|thread|mutex|chrono|ctime)>' 'arm and servoing have no files, threads or clock'
+done
+
 # PCL costs 10 s and 1 GB a translation unit: one, in the benchmark.
 pcl=$(grep -rlE --include='*.h' --include='*.cpp' '#include <pcl/' . --exclude-dir=build | grep -v '^\./bench/pcl_[a-z_]*\.cpp$')
 if [ -n "$pcl" ]; then
@@ -50,8 +64,8 @@ fi
 # Headers are guarded, and included with their folder.
 while IFS= read -r header; do
   head -n 1 "$header" | grep -q '^#pragma once$' || { echo "$header: does not start with #pragma once"; faults=1; }
-done < <(find common matcher messaging files settings planning reporting bus canopen render evaluation client bench server -name '*.h' 2>/dev/null)
-bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher messaging files settings planning reporting bus canopen server render evaluation client bench)
+done < <(find common matcher messaging files settings planning reporting bus canopen arm servoing calibration render evaluation client bench server -name '*.h' 2>/dev/null)
+bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher messaging files settings planning reporting bus canopen arm servoing calibration server render evaluation client bench)
 if [ -n "$bare" ]; then
   printf '%s\n   include as "folder/file.h"\n' "$bare"
   faults=1

@@ -12,7 +12,7 @@ run=(g++ cmake ninja-build libeigen3-dev libopencv-dev libembree-dev libcli11-de
      libtomlplusplus-dev libyaml-cpp-dev libpng-dev liblzf-dev libnanoflann-dev gnuplot-nox
      liblcm-dev liblcm-bin libsodium-dev zlib1g-dev
      libspdlog-dev libmicrohttpd-dev libsystemd-dev)
-test=(git iproute2 clang-format clang-tidy libgtest-dev libgmock-dev tshark)
+test=(git iproute2 clang-format clang-tidy libgtest-dev libgmock-dev liborocos-kdl-dev tshark)
 bench=(libpcl-dev libopencv-contrib-dev libbenchmark-dev)
 fuzz=(clang)
 deploy=(debootstrap procps)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/calibrate_command.h"
 #include "client/cli/compare_command.h"
 #include "client/cli/detect_command.h"
 #include "client/cli/eval_command.h"
@@ -82,6 +83,8 @@ void add_commands(CLI::App& app) {
   add_record_command(app);
   add_replay_command(app);
   add_compare_command(app);
+  add_calibrate_command(app);
+  add_teach_command(app);
 }
 
 int parse_and_run(CLI::App& app, int argc, char** argv) {
