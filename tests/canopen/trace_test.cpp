@@ -129,8 +129,9 @@ TEST_F(Trace, SdoReadsTheIdentityAndAbortsNothing) {
   EXPECT_EQ(count({{"sdo.abort_code", -1}}), 0u);
   for (const Row& row : rows_)
     if (number(row, "canopen.sdo.main_idx") == 0x1018 && number(row, "canopen.sdo.sub_idx") == 1 &&
-        number(row, "canopen.sdo.scs") == 2)
+        number(row, "canopen.sdo.scs") == 2) {
       EXPECT_THAT(row.at("canopen.sdo.data.bytes"), testing::StartsWith("d90e0000")) << "the vendor";
+    }
 }
 
 TEST_F(Trace, PdosAndSyncOfEveryCycle) {
