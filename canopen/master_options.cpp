@@ -47,4 +47,13 @@ void MasterOptions::check() const {
   demand(max_frames_a_cycle >= 64, "max_frames_a_cycle", "at least 64", max_frames_a_cycle);
 }
 
+std::vector<uint16_t> MasterOptions::received_ids() const {
+  std::vector<uint16_t> ids;
+  for (const int node : nodes)
+    for (const uint16_t function :
+         {cob_id::kEmergency, cob_id::kTpdo1, cob_id::kTpdo2, cob_id::kSdoAnswer, cob_id::kHeartbeat})
+      ids.push_back(static_cast<uint16_t>(function + node));
+  return ids;
+}
+
 }  // namespace edgepose

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "canopen/drive_options.h"
 
@@ -47,6 +48,8 @@ struct MasterOptions {
 
   /// Throws std::invalid_argument that names the field and what it may be.
   void check() const;
+  /// All that the master wants to hear, to be filtered for by the bus (bus/open_bus.h).
+  std::vector<uint16_t> received_ids() const;
 };
 
 }  // namespace edgepose

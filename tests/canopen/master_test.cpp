@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/canopen/arm_on_wire.h"
 
 namespace edgepose {
@@ -135,6 +137,24 @@ TEST(Master, BadSetPointsMoveNothing) {
     EXPECT_EQ(arm.master.fault().node, 1);
     EXPECT_NEAR(arm.drives[0]->position(), before, 1e-5) << bad;
   }
+}
+
+TEST(Master, FiltersForAllThatTheDrivesSayAndNothingElse) {
+  ArmOnWire arm;
+  arm.enable();
+  arm.drives[0]->provoke(Provocation::kEmergency);
+  arm.cycles_of(10);
+  std::set<uint16_t> said;
+  for (const CanFrame& frame : arm.wire.trace) {
+    const uint16_t function = cob_id::function_of(frame.id);
+    const bool from_master = frame.id == 0 || frame.id == 0x080 || frame.id == 0x77f ||
+                             function == cob_id::kRpdo1 || function == cob_id::kSdoRequest;
+    if (!from_master) said.insert(frame.id);
+  }
+  for (uint16_t node = 1; node <= 6; ++node)
+    said.insert(static_cast<uint16_t>(0x080 + node));  // only one had an emergency
+  const auto ids = MasterOptions{}.received_ids();
+  EXPECT_EQ(std::set<uint16_t>(ids.begin(), ids.end()), said);
 }
 
 TEST(Master, OptionsOutOfRangeAreNamed) {
