@@ -35,8 +35,9 @@ class Convergence {
   int in_a_row_ = 0;
 };
 
-/// Where the goal on the axis is in the next cycle: `standoff` [m] before the entry, moved on by `seconds` at four
-/// fifths of the axial speed, never past 0; as long as the tool follows within the tube, else it waits. Pure.
+/// Where the goal on the axis is in the next cycle: `standoff` [m] before the entry, moved on by `seconds` at
+/// four fifths of the axial speed, never past 0; as long as the tool follows within the tube, else it waits.
+/// Pure.
 double next_standoff(double standoff, const PoseError& error, double seconds, const ApproachOptions& options);
 
 }  // namespace edgepose

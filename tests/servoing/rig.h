@@ -12,7 +12,9 @@ struct Draws {
   std::normal_distribution<double> normal;
   explicit Draws(uint64_t seed) : random(seed) {}
 
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53; }
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  }
   Eigen::Vector3d vector(double size) {
     return {between(-size, size), between(-size, size), between(-size, size)};
   }
