@@ -90,7 +90,7 @@ AxisLimits axis_limits(const ArmGeometry& arm, const MotionOptions& options, int
 LimitedMotion limit_motion(const ArmGeometry& arm, const JointState& now, const JointVector& wanted,
                            const TipLimit& tip, const MotionOptions& options) {
   const JointVector velocity = feasible(wanted, arm, now, tip, options);
-  const LimitedMotion whole = attempt(arm, now, velocity, tip, options);
+  LimitedMotion whole = attempt(arm, now, velocity, tip, options);
   if (whole.bound == MotionBound::kNone) return whole;
   // The same share for all joints keeps the direction. The stop is allowed whatever the state.
   LimitedMotion best{stop_motion(now, options), whole.bound, whole.joint};
