@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "arm/kinematics.h"
-#include "arm/option_range.h"
+#include "matcher/option_range.h"
 
 namespace edgepose {
 namespace {

@@ -2,42 +2,26 @@
 
 #include <array>
 #include <cmath>
-#include <initializer_list>
-#include <sstream>
+
+#include "matcher/option_range.h"
 
 namespace edgepose {
 namespace {
-
-/// A field and the range it may have; NaN is in none.
-struct Range {
-  const char* name;
-  double value, least, most;
-};
-
-std::string first_fault(std::initializer_list<Range> ranges) {
-  for (const Range& r : ranges) {
-    if (r.value >= r.least && r.value <= r.most) continue;
-    std::ostringstream text;
-    text << r.name << ": expected " << r.least << " to " << r.most << ", found " << r.value;
-    return text.str();
-  }
-  return "";
-}
 
 constexpr double kTiny = 1e-6;  // lower end of what must be above zero
 
 }  // namespace
 
 std::string SamplingOptions::check() const {
-  return first_fault({{"fine_theta_deg", fine_theta_deg, 1, 90},
-                      {"theta_factor", theta_factor, 0.1, 1},
-                      {"enough_points", static_cast<double>(enough_points), 0, 1e6},
-                      {"max_pixel_size", max_pixel_size, 1e-3, 1},
-                      {"max_noise", max_noise, 1e-4, 1}});
+  return option_fault({{"fine_theta_deg", fine_theta_deg, 1, 90},
+                       {"theta_factor", theta_factor, 0.1, 1},
+                       {"enough_points", static_cast<double>(enough_points), 0, 1e6},
+                       {"max_pixel_size", max_pixel_size, 1e-3, 1},
+                       {"max_noise", max_noise, 1e-4, 1}});
 }
 
 std::string VotingOptions::check() const {
-  return first_fault(
+  return option_fault(
       {{"reference_share", reference_share, kTiny, 1},
        {"min_references", static_cast<double>(min_references), 1, 1e5},
        {"max_references", static_cast<double>(max_references), static_cast<double>(min_references), 1e5},
@@ -46,11 +30,11 @@ std::string VotingOptions::check() const {
 }
 
 std::string ClusteringOptions::check() const {
-  return first_fault({{"max_distance", max_distance, 1e-3, 1}, {"max_angle_deg", max_angle_deg, 1, 90}});
+  return option_fault({{"max_distance", max_distance, 1e-3, 1}, {"max_angle_deg", max_angle_deg, 1, 90}});
 }
 
 std::string SearchOptions::check() const {
-  return first_fault(
+  return option_fault(
       {{"batch", static_cast<double>(batch), 1, 1e5},
        {"coarse_candidates", static_cast<double>(coarse_candidates), 1, 1e4},
        {"fine_candidates", static_cast<double>(fine_candidates), 1, static_cast<double>(coarse_candidates)},
@@ -60,27 +44,27 @@ std::string SearchOptions::check() const {
 }
 
 std::string ToleranceOptions::check() const {
-  return first_fault({{"surface", surface, 1e-4, 0.2},
-                      {"noise_factor", noise_factor, 0, 10},
-                      {"max_surface", max_surface, surface, 0.3},
-                      {"min_normal_cosine", min_normal_cosine, 0, 0.999},
-                      {"shallow_depth", shallow_depth, 0, 1}});
+  return option_fault({{"surface", surface, 1e-4, 0.2},
+                       {"noise_factor", noise_factor, 0, 10},
+                       {"max_surface", max_surface, surface, 0.3},
+                       {"min_normal_cosine", min_normal_cosine, 0, 0.999},
+                       {"shallow_depth", shallow_depth, 0, 1}});
 }
 
 std::string RefinementOptions::check() const {
-  return first_fault({{"first_iterations", static_cast<double>(first_iterations), 0, 100},
-                      {"coarse_iterations", static_cast<double>(coarse_iterations), 1, 100},
-                      {"fine_iterations", static_cast<double>(fine_iterations), 1, 100},
-                      {"last_iterations", static_cast<double>(last_iterations), 1, 100},
-                      {"outline_sigma", outline_sigma, 0.1, 100}});
+  return option_fault({{"first_iterations", static_cast<double>(first_iterations), 0, 100},
+                       {"coarse_iterations", static_cast<double>(coarse_iterations), 1, 100},
+                       {"fine_iterations", static_cast<double>(fine_iterations), 1, 100},
+                       {"last_iterations", static_cast<double>(last_iterations), 1, 100},
+                       {"outline_sigma", outline_sigma, 0.1, 100}});
 }
 
 std::string PaperOptions::check() const {
-  return first_fault({{"candidates", static_cast<double>(candidates), 1, 1000},
-                      {"roi_scale", roi_scale, 1, 10},
-                      {"accept_at_once", accept_at_once, 0, 2},
-                      {"accept_best", accept_best, 0, 2},
-                      {"edge_distance", edge_distance, 1e-4, 0.2}});
+  return option_fault({{"candidates", static_cast<double>(candidates), 1, 1000},
+                       {"roi_scale", roi_scale, 1, 10},
+                       {"accept_at_once", accept_at_once, 0, 2},
+                       {"accept_best", accept_best, 0, 2},
+                       {"edge_distance", edge_distance, 1e-4, 0.2}});
 }
 
 std::string MatchOptions::check() const {
@@ -93,10 +77,10 @@ std::string MatchOptions::check() const {
                                                                       {"paper", paper.check()}}};
   for (const auto& [stage, fault] : stages)
     if (!fault.empty()) return stage + ("." + fault);
-  return first_fault({{"max_instances", static_cast<double>(max_instances), 1, 100},
-                      {"accept_score", accept_score, 0, 1},
-                      {"threads", static_cast<double>(threads), 0, 256},
-                      {"max_seconds", max_seconds, 0, 3600}});
+  return option_fault({{"max_instances", static_cast<double>(max_instances), 1, 100},
+                       {"accept_score", accept_score, 0, 1},
+                       {"threads", static_cast<double>(threads), 0, 256},
+                       {"max_seconds", max_seconds, 0, 3600}});
 }
 
 }  // namespace edgepose

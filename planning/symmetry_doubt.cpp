@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "matcher/symmetry_axis.h"
+
 namespace edgepose {
 namespace {
 
@@ -29,13 +31,6 @@ bool moves_away(const DrillTarget& target, const DrillPlan& plan, const RigidTra
   moved.axis = symmetry.linear() * target.axis;
   return std::none_of(plan.targets.begin(), plan.targets.end(),
                       [&](const DrillTarget& there) { return coincides(moved, there); });
-}
-
-RigidTransform turn_about(const SymmetryAxis& axis, double angle) {
-  RigidTransform turn = RigidTransform::Identity();
-  turn.linear() = Eigen::AngleAxisd(angle, axis.direction).toRotationMatrix();
-  turn.translation() = axis.point - turn.linear() * axis.point;
-  return turn;
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "arm/option_range.h"
+#include "matcher/option_range.h"
 
 namespace edgepose {
 namespace {

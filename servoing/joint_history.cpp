@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arm/option_range.h"
+#include "matcher/option_range.h"
 
 namespace edgepose {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "arm/option_range.h"
 #include "arm/rigid_motion.h"
+#include "matcher/option_range.h"
 #include "servoing/proper_pose.h"
 
 namespace edgepose {

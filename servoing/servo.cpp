@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "arm/kinematics.h"
-#include "arm/option_range.h"
 #include "arm/rigid_motion.h"
 #include "common/error.h"
+#include "matcher/option_range.h"
 #include "servoing/proper_pose.h"
 
 namespace edgepose {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arm/option_range.h"
 #include "arm/rigid_motion.h"
+#include "matcher/option_range.h"
 
 namespace edgepose {
 

@@ -1,4 +1,4 @@
-#include "arm/option_range.h"
+#include "matcher/option_range.h"
 #include "servoing/servo.h"
 
 namespace edgepose {

@@ -2,9 +2,9 @@
 
 #include <sstream>
 
-#include "arm/option_range.h"
 #include "arm/rigid_motion.h"
 #include "common/error.h"
+#include "matcher/option_range.h"
 #include "servoing/proper_pose.h"
 
 namespace edgepose {

@@ -12,7 +12,7 @@
 #include "bus/pcap_writer.h"
 #include "bus/steady_clock.h"
 #include "common/error.h"
-#include "tests/bus/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace edgepose {
 namespace {

@@ -15,7 +15,7 @@
 #include "bus/unix_address.h"
 #include "bus/unix_bus_hub.h"
 #include "common/error.h"
-#include "tests/bus/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace edgepose {
 namespace {

@@ -44,17 +44,6 @@ std::vector<std::string> command(const std::filesystem::path& folder, const std:
 
 }  // namespace
 
-Folder::Folder() {
-  std::string path = (std::filesystem::temp_directory_path() / "edgepose_XXXXXX").string();
-  if (mkdtemp(path.data()) == nullptr) throw std::runtime_error("cannot make " + path);
-  path_ = path;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 Process::Process(const std::vector<std::string>& command, const std::filesystem::path& log,
                  const std::vector<std::string>& environment) {
   std::vector<char*> arguments;

@@ -1,9 +1,9 @@
 #pragma once
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace edgepose {
@@ -12,13 +12,16 @@ namespace edgepose {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = "/tmp/edgepose_bus_XXXXXX";
-    if (!mkdtemp(name.data())) ADD_FAILURE() << "no folder in /tmp";
+    std::string name = "/tmp/edgepose_XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
     path_ = name;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:
