@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "daemon/line_connection.h"
 #include "fuzz/input_check.h"
-#include "server/line_connection.h"
 
 // Bytes from a client, in pieces: the lines are those that were sent, whatever the pieces.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

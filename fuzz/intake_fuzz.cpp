@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "daemon/log.h"
 #include "fuzz/input_check.h"
 #include "messaging/big_endian.h"
 #include "server/frame_intake.h"
-#include "server/log.h"
 
 // A message on the depth channel: whatever it holds, it is counted once, and what arrives is sound.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "daemon/json_rpc.h"
 #include "fuzz/input_check.h"
-#include "server/json_rpc.h"
 #include "server/params.h"
 
 namespace {

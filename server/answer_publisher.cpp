@@ -1,8 +1,8 @@
 #include "server/answer_publisher.h"
 
+#include "daemon/clock.h"
+#include "daemon/log.h"
 #include "messaging/checked_decode.h"
-#include "server/clock.h"
-#include "server/log.h"
 
 namespace edgepose {
 

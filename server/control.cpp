@@ -3,9 +3,9 @@
 #include <set>
 
 #include "common/error.h"
-#include "server/clock.h"
-#include "server/json_rpc.h"
-#include "server/log.h"
+#include "daemon/clock.h"
+#include "daemon/json_rpc.h"
+#include "daemon/log.h"
 #include "settings/nearest_word.h"
 
 namespace edgepose {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "daemon/json_rpc.h"
+#include "daemon/line_server.h"
 #include "messaging/signed_command.h"
-#include "server/json_rpc.h"
-#include "server/line_server.h"
 #include "server/registrar.h"
 #include "server/statistics.h"
 #include "server/worker.h"

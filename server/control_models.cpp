@@ -1,8 +1,8 @@
 /// The commands that are about models.
 #include "common/error.h"
+#include "daemon/json_text.h"
 #include "reporting/match_json.h"
 #include "server/control.h"
-#include "server/json_text.h"
 #include "server/params.h"
 #include "server/training.h"
 

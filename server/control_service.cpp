@@ -1,7 +1,7 @@
 /// The commands that are about the service itself.
-#include "server/clock.h"
+#include "daemon/clock.h"
+#include "daemon/json_text.h"
 #include "server/control.h"
-#include "server/json_text.h"
 #include "server/memory_use.h"
 #include "server/params.h"
 

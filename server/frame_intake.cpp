@@ -2,10 +2,10 @@
 
 #include <new>
 
+#include "daemon/clock.h"
+#include "daemon/log.h"
 #include "messaging/checked_decode.h"
 #include "server/answer_messages.h"
-#include "server/clock.h"
-#include "server/log.h"
 
 namespace edgepose {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
 
+#include "daemon/counters.h"
 #include "messaging/udpm_assembly.h"
-#include "server/counters.h"
 #include "server/frame_judge.h"
 #include "server/frame_mailbox.h"
 

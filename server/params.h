@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/json_rpc.h"
+#include "daemon/json_rpc.h"
 #include "settings/nearest_word.h"
 
 namespace edgepose {

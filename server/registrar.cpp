@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/log.h"
+#include "daemon/log.h"
 #include "server/training.h"
 
 namespace edgepose {

@@ -11,9 +11,9 @@
 #include <set>
 
 #include "common/error.h"
+#include "daemon/clock.h"
 #include "files/model_file.h"
 #include "matcher/model_block.h"
-#include "server/clock.h"
 
 namespace edgepose {
 namespace {

@@ -9,14 +9,14 @@
 #include <memory>
 
 #include "common/error.h"
+#include "daemon/clock.h"
+#include "daemon/log.h"
+#include "daemon/signals.h"
 #include "messaging/udpm_receiver.h"
-#include "server/clock.h"
 #include "server/control.h"
 #include "server/frame_intake.h"
 #include "server/http_endpoint.h"
-#include "server/log.h"
 #include "server/metrics.h"
-#include "server/signals.h"
 #include "server/status_message.h"
 #include "settings/control_address.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "daemon/counters.h"
 #include "messaging/depth_message.h"
-#include "server/counters.h"
 #include "server/recent.h"
 
 namespace edgepose {

@@ -3,9 +3,9 @@
 #include <cstring>
 
 #include "common/error.h"
+#include "daemon/clock.h"
 #include "files/number_text.h"
 #include "server/child_process.h"
-#include "server/clock.h"
 #include "server/training_messages.h"
 
 namespace edgepose {

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <exception>
 
+#include "daemon/clock.h"
+#include "daemon/log.h"
 #include "files/number_text.h"
 #include "matcher/stopwatch.h"
-#include "server/clock.h"
-#include "server/log.h"
 
 namespace edgepose {
 namespace {

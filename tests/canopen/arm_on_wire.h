@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bus/loop_wire.h"
 #include "canopen/cob_id.h"
 #include "canopen/drive.h"
 #include "canopen/master.h"
-#include "tests/canopen/loop_bus.h"
 
 namespace edgepose {
 

@@ -2,10 +2,10 @@
 
 #include <random>
 
+#include "bus/loop_wire.h"
 #include "canopen/drive_dictionary.h"
 #include "canopen/sdo_client.h"
 #include "canopen/sdo_server.h"
-#include "tests/canopen/loop_bus.h"
 
 namespace edgepose {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <functional>
 
+#include "daemon/clock.h"
 #include "messaging/lcm_publisher.h"
-#include "server/clock.h"
 
 namespace edgepose {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/line_server.h"
+#include "daemon/line_server.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

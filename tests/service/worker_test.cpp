@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/clock.h"
+#include "daemon/clock.h"
 #include "tests/messaging/network_namespace.h"
 #include "tests/service/daemon.h"
 #include "tests/service/moving_scene.h"

@@ -1,4 +1,4 @@
-#include "server/line_connection.h"
+#include "daemon/line_connection.h"
 
 #include <sys/socket.h>
 #include <unistd.h>

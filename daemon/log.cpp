@@ -1,4 +1,4 @@
-#include "server/log.h"
+#include "daemon/log.h"
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>

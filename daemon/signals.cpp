@@ -1,4 +1,4 @@
-#include "server/signals.h"
+#include "daemon/signals.h"
 
 #include <poll.h>
 #include <pthread.h>

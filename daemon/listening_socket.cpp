@@ -1,4 +1,4 @@
-#include "server/listening_socket.h"
+#include "daemon/listening_socket.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -1,9 +1,9 @@
-#include "server/json_rpc.h"
+#include "daemon/json_rpc.h"
 
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
-#include "server/json_text.h"
+#include "daemon/json_text.h"
 
 namespace edgepose {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/line_server.h"
+#include "daemon/line_server.h"
 
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "server/log.h"
+#include "daemon/log.h"
 
 namespace edgepose {
 namespace {

@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "server/counters.h"
-#include "server/line_connection.h"
-#include "server/listening_socket.h"
+#include "daemon/counters.h"
+#include "daemon/line_connection.h"
+#include "daemon/listening_socket.h"
 
 namespace edgepose {
 
