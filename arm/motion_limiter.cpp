@@ -11,11 +11,11 @@ namespace {
 
 constexpr int kHalvings = 5;  // of the share of the wanted velocity that is tried
 
-AxisState axis(const JointState& state, int joint) {
+AxisMotion axis(const JointState& state, int joint) {
   return {state.position[joint], state.velocity[joint], state.acceleration[joint]};
 }
 
-void set_axis(JointState& state, int joint, const AxisState& axis) {
+void set_axis(JointState& state, int joint, const AxisMotion& axis) {
   state.position[joint] = axis.position;
   state.velocity[joint] = axis.velocity;
   state.acceleration[joint] = axis.acceleration;
@@ -56,9 +56,9 @@ LimitedMotion attempt(const ArmGeometry& arm, const JointState& now, const Joint
   LimitedMotion motion;
   for (int i = 0; i < kJoints; ++i) {
     const AxisLimits limits = axis_limits(arm, options, i);
-    const AxisState from = axis(now, i);
+    const AxisMotion from = axis(now, i);
     const VelocityProfile profile = velocity_profile(from, velocity[i], limits.acceleration, limits.jerk);
-    const AxisState next = profile.after(from, options.cycle);
+    const AxisMotion next = profile.after(from, options.cycle);
     const MotionExtent passed = extent(from, profile, options.cycle);
     if (passed.lowest < limits.lower || passed.highest > limits.upper || !can_stop(next, limits)) {
       motion.bound = MotionBound::kJointLimit;
@@ -107,7 +107,7 @@ LimitedMotion limit_motion(const ArmGeometry& arm, const JointState& now, const 
 JointState stop_motion(const JointState& now, const MotionOptions& options) {
   JointState next;
   for (int i = 0; i < kJoints; ++i) {
-    const AxisState from = axis(now, i);
+    const AxisMotion from = axis(now, i);
     set_axis(next, i,
              velocity_profile(from, 0, options.acceleration, options.jerk).after(from, options.cycle));
   }

@@ -6,19 +6,19 @@
 namespace edgepose {
 namespace {
 
-AxisState with_jerk(const AxisState& s, double jerk, double t) {
+AxisMotion with_jerk(const AxisMotion& s, double jerk, double t) {
   return {s.position + t * (s.velocity + t * (s.acceleration / 2 + t * jerk / 6)),
           s.velocity + t * (s.acceleration + t * jerk / 2), s.acceleration + t * jerk};
 }
 
-void widen(MotionExtent& extent, const AxisState& s) {
+void widen(MotionExtent& extent, const AxisMotion& s) {
   extent.lowest = std::min(extent.lowest, s.position);
   extent.highest = std::max(extent.highest, s.position);
   extent.speed = std::max(extent.speed, std::abs(s.velocity));
 }
 
 /// The turning points of velocity and position inside a phase.
-void widen_inside(MotionExtent& extent, const AxisState& s, double jerk, double duration) {
+void widen_inside(MotionExtent& extent, const AxisMotion& s, double jerk, double duration) {
   const auto visit = [&](double t) {
     if (t > 0 && t < duration) widen(extent, with_jerk(s, jerk, t));
   };
@@ -36,7 +36,7 @@ void widen_inside(MotionExtent& extent, const AxisState& s, double jerk, double 
 
 }  // namespace
 
-VelocityProfile velocity_profile(const AxisState& from, double target, double max_acceleration,
+VelocityProfile velocity_profile(const AxisMotion& from, double target, double max_acceleration,
                                  double max_jerk) {
   // Seen from the target's velocity, and mirrored so that the velocity still there when the acceleration has
   // been taken back is positive: then brake, hold the braking, release.
@@ -61,7 +61,7 @@ double VelocityProfile::duration() const {
   return phases[0].duration + phases[1].duration + phases[2].duration;
 }
 
-AxisState VelocityProfile::after(AxisState from, double t) const {
+AxisMotion VelocityProfile::after(AxisMotion from, double t) const {
   for (const Phase& phase : phases) {
     const double spent = std::min(t, phase.duration);
     if (spent > 0) from = with_jerk(from, phase.jerk, spent);
@@ -71,9 +71,9 @@ AxisState VelocityProfile::after(AxisState from, double t) const {
   return {from.position + t * target, target, 0};  // exact, so that nothing creeps
 }
 
-MotionExtent extent(const AxisState& from, const VelocityProfile& profile, double horizon) {
+MotionExtent extent(const AxisMotion& from, const VelocityProfile& profile, double horizon) {
   MotionExtent result{from.position, from.position, std::abs(from.velocity)};
-  AxisState state = from;
+  AxisMotion state = from;
   for (const VelocityProfile::Phase& phase : profile.phases) {
     const double spent = std::min(horizon, phase.duration);
     if (spent <= 0) continue;
@@ -85,7 +85,7 @@ MotionExtent extent(const AxisState& from, const VelocityProfile& profile, doubl
   return result;
 }
 
-bool can_stop(const AxisState& state, const AxisLimits& limits) {
+bool can_stop(const AxisMotion& state, const AxisLimits& limits) {
   if (!(std::abs(state.acceleration) <= limits.acceleration)) return false;
   const MotionExtent stop = extent(state, velocity_profile(state, 0, limits.acceleration, limits.jerk));
   return stop.lowest >= limits.lower && stop.highest <= limits.upper && stop.speed <= limits.velocity;

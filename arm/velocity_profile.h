@@ -5,7 +5,7 @@
 namespace edgepose {
 
 /// One joint, or any other axis. [rad], [rad/s], [rad/s^2].
-struct AxisState {
+struct AxisMotion {
   double position = 0, velocity = 0, acceleration = 0;
 };
 
@@ -28,11 +28,11 @@ struct VelocityProfile {
   double target = 0;  ///< [rad/s]
 
   double duration() const;  ///< [s]
-  AxisState after(AxisState from,
+  AxisMotion after(AxisMotion from,
                   double t) const;  ///< where `from` is after t seconds; then at the target's velocity
 };
 
-VelocityProfile velocity_profile(const AxisState& from, double target, double max_acceleration,
+VelocityProfile velocity_profile(const AxisMotion& from, double target, double max_acceleration,
                                  double max_jerk);
 
 /// What the motion passes through in the first `horizon` seconds of the profile, between the samples too.
@@ -40,11 +40,11 @@ struct MotionExtent {
   double lowest = 0, highest = 0;  ///< [rad]
   double speed = 0;                ///< [rad/s] largest
 };
-MotionExtent extent(const AxisState& from, const VelocityProfile& profile,
+MotionExtent extent(const AxisMotion& from, const VelocityProfile& profile,
                     double horizon = std::numeric_limits<double>::infinity());
 
 /// Whether the state and the whole controlled stop from it are within the limits: the set of states a motion
 /// may enter. From each of them the stop leads on within the set.
-bool can_stop(const AxisState& state, const AxisLimits& limits);
+bool can_stop(const AxisMotion& state, const AxisLimits& limits);
 
 }  // namespace edgepose

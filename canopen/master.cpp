@@ -109,26 +109,30 @@ void Master::latch(const Fault& fault) {
   cycles_in_phase_.fill(0);
 }
 
-const ArmState& Master::cycle(int64_t now_ns, const PerAxis<double>& set_points) {
+const ArmState& Master::receive(int64_t now_ns) {
   ++counters_.cycles;
-  const bool was_latched = state_.phase == MasterPhase::kFault,
-             was_enabled = state_.phase == MasterPhase::kEnabled;
-  receive(now_ns);
+  was_latched_ = state_.phase == MasterPhase::kFault;
+  was_enabled_ = state_.phase == MasterPhase::kEnabled;
+  take_frames(now_ns);
   if (state_.phase == MasterPhase::kSettingUp) continue_set_up(now_ns);
   if (communicating_) judge(now_ns);
   if (state_.phase == MasterPhase::kEnabling || state_.phase == MasterPhase::kDisabling) transit(now_ns);
+  return state_;
+}
+
+const ArmState& Master::send(int64_t now_ns, const PerAxis<double>& set_points) {
   // Who calls knows only from the next cycle on that set points count.
-  if (was_enabled && state_.phase == MasterPhase::kEnabled)
+  if (was_enabled_ && state_.phase == MasterPhase::kEnabled)
     take_set_points(set_points, now_ns);
   else
     hold();
   produce(now_ns);
-  if (!was_latched) remember(now_ns);
+  if (!was_latched_) remember(now_ns);
   last_cycle_ns_ = now_ns;
   return state_;
 }
 
-void Master::receive(int64_t now_ns) {
+void Master::take_frames(int64_t now_ns) {
   int frames = 0;
   for (; frames < options_.max_frames_a_cycle; ++frames) {
     const Received received = bus_.receive(0);

@@ -37,8 +37,8 @@ struct MasterCounters {
 };
 
 /// CANopen master of a six-axis arm: CiA 402 drives in mode 8 (cyclic synchronous position). Whoever owns it
-/// calls cycle() every 5 ms, and that is all that happens: no thread, no clock, no waiting. Once it has been
-/// made, cycle() neither throws nor, the set-up apart, allocates. One thread.
+/// calls receive() and send() every 5 ms, and that is all that happens: no thread, no clock, no waiting. Once
+/// it has been made, they neither throw nor, the set-up apart, allocate. One thread.
 ///
 /// A fault makes it tell all drives to stop in the same cycle; the first is kept, with the last 50 cycles,
 /// until reset(). This is no certified emergency stop.
@@ -63,9 +63,16 @@ class Master {
   /// The axis knows its position again after its drive has booted.
   void confirm_homed(int axis);
 
-  /// Takes what has come, judges it, sends set points and SYNC. `set_points` [rad] are followed in kEnabled
-  /// only, where the first must be where the arm is: else they are ignored, and each axis told to stay.
-  const ArmState& cycle(int64_t now_ns, const PerAxis<double>& set_points);
+  /// The first half of a cycle: takes what has come and judges it. The state is that of the last SYNC.
+  const ArmState& receive(int64_t now_ns);
+  /// The second half: sends set points and SYNC. `set_points` [rad] are followed in kEnabled only, where the
+  /// first must be where the arm is: else they are ignored, and each axis told to stay.
+  const ArmState& send(int64_t now_ns, const PerAxis<double>& set_points);
+  /// Both at once, for set points that do not depend on the state.
+  const ArmState& cycle(int64_t now_ns, const PerAxis<double>& set_points) {
+    receive(now_ns);
+    return send(now_ns, set_points);
+  }
 
   const ArmState& state() const { return state_; }
   const Fault& fault() const { return fault_; }
@@ -75,7 +82,7 @@ class Master {
   const MasterCounters& counters() const { return counters_; }
 
  private:
-  void receive(int64_t now_ns);
+  void take_frames(int64_t now_ns);
   void dispatch(const CanFrame& frame, int64_t now_ns);
   void take_event(BusEvent event, int64_t now_ns);
   void latch(const Fault& fault);
@@ -88,7 +95,7 @@ class Master {
   void transit(int64_t now_ns);
   uint16_t controlword_for(size_t axis);
   void produce(int64_t now_ns);
-  bool send(const CanFrame& frame);
+  bool put(const CanFrame& frame);
   void remember(int64_t now_ns);
 
   CanBus& bus_;
@@ -105,6 +112,7 @@ class Master {
   PerAxis<int64_t> since_ns_{};     ///< when each axis' state changed, while enabling or disabling
   PerAxis<int> cycles_in_phase_{};  ///< for fault resets and stops, counted from the phase's beginning
   bool communicating_ = false;      ///< drives are operational: SYNC runs
+  bool was_latched_ = false, was_enabled_ = false;  ///< when this cycle began
   bool sync_sent_ = false, took_frames_ = true, is_down_ = false;
   int no_room_ = 0, flooded_ = 0;
   int64_t last_cycle_ns_ = 0, next_heartbeat_ns_ = 0;

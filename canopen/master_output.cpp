@@ -57,7 +57,7 @@ void Master::produce(int64_t now_ns) {
   if (state_.phase == MasterPhase::kIdle) return;
   took_frames_ = true;
   if (now_ns >= next_heartbeat_ns_) {
-    send(heartbeat_frame(options_.master_node, NmtState::kOperational, now_ns));
+    put(heartbeat_frame(options_.master_node, NmtState::kOperational, now_ns));
     next_heartbeat_ns_ = now_ns + static_cast<int64_t>(options_.master_heartbeat * 1e9);
   }
   if (!communicating_) return;
@@ -65,18 +65,18 @@ void Master::produce(int64_t now_ns) {
     controlwords_[i] = controlword_for(i);
     const TargetPdo target{
         .controlword = controlwords_[i], .mode = kCyclicSynchronousPosition, .position = targets_[i]};
-    const bool sent = send(target_frame(options_.nodes[i], target, now_ns));
+    const bool sent = put(target_frame(options_.nodes[i], target, now_ns));
     // Half a set of targets must not take effect; a stop is sent to whom it reaches.
     if (!sent && state_.phase != MasterPhase::kFault) break;
   }
-  if (took_frames_ || state_.phase == MasterPhase::kFault) sync_sent_ = send(sync_frame(now_ns));
+  if (took_frames_ || state_.phase == MasterPhase::kFault) sync_sent_ = put(sync_frame(now_ns));
   counters_.syncs += sync_sent_;
   no_room_ = took_frames_ ? 0 : no_room_ + 1;
   if (no_room_ >= options_.max_no_room)
     latch(is_down_ ? FaultKind::kBusDown : FaultKind::kNoRoom, now_ns, static_cast<uint32_t>(no_room_));
 }
 
-bool Master::send(const CanFrame& frame) {
+bool Master::put(const CanFrame& frame) {
   const SendResult result = bus_.send(frame);
   if (result == SendResult::kSent) return true;
   ++counters_.not_sent;

@@ -2,7 +2,7 @@
 
 #include "daemon/json_rpc.h"
 #include "fuzz/input_check.h"
-#include "server/params.h"
+#include "daemon/params.h"
 
 namespace {
 

@@ -5,10 +5,6 @@
 
 namespace edgepose {
 
-inline constexpr const char* kPosesChannel = "EDGEPOSE_POSES";
-inline constexpr const char* kDrillTargetsChannel = "EDGEPOSE_DRILL_TARGETS";
-inline constexpr const char* kStatusChannel = "EDGEPOSE_STATUS";
-
 /// The answer as it is published; send_utime and authentication are left for the sender.
 edgepose_lcm::pose_estimates_t to_poses(const WaitingFrame& frame, const FrameAnswer& answer);
 

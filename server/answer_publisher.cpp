@@ -2,6 +2,7 @@
 
 #include "daemon/clock.h"
 #include "daemon/log.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 
 namespace edgepose {
@@ -14,13 +15,13 @@ AnswerPublisher::AnswerPublisher(const UdpmAddress& address, const std::optional
 int64_t AnswerPublisher::publish(edgepose_lcm::pose_estimates_t& poses,
                                  edgepose_lcm::drill_targets_t& targets) {
   poses.send_utime = targets.send_utime = utime_now();
-  const bool sent = send(kPosesChannel, poses);
-  return send(kDrillTargetsChannel, targets) && sent ? poses.send_utime : 0;
+  const bool sent = send(channels::kPoses, poses);
+  return send(channels::kDrillTargets, targets) && sent ? poses.send_utime : 0;
 }
 
 bool AnswerPublisher::publish_status(edgepose_lcm::service_status_t& status) {
   status.send_utime = utime_now();
-  return publisher_.publish(kStatusChannel, encode(status));
+  return publisher_.publish(channels::kStatus, encode(status));
 }
 
 template <class Message>

@@ -3,10 +3,10 @@
 #include <set>
 
 #include "common/error.h"
+#include "common/nearest_word.h"
 #include "daemon/clock.h"
 #include "daemon/json_rpc.h"
 #include "daemon/log.h"
-#include "settings/nearest_word.h"
 
 namespace edgepose {
 namespace {

@@ -7,12 +7,12 @@
 #include "common/error.h"
 #include "common/naming.h"
 #include "daemon/json_text.h"
+#include "daemon/params.h"
 #include "files/camera_file.h"
 #include "files/depth_file.h"
 #include "matcher/stopwatch.h"
 #include "reporting/match_json.h"
 #include "server/control.h"
-#include "server/params.h"
 
 namespace edgepose {
 namespace {

@@ -1,9 +1,9 @@
 /// The commands that are about models.
 #include "common/error.h"
 #include "daemon/json_text.h"
+#include "daemon/params.h"
 #include "reporting/match_json.h"
 #include "server/control.h"
-#include "server/params.h"
 #include "server/training.h"
 
 namespace edgepose {

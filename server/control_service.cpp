@@ -1,9 +1,9 @@
 /// The commands that are about the service itself.
 #include "daemon/clock.h"
 #include "daemon/json_text.h"
+#include "daemon/params.h"
 #include "server/control.h"
 #include "server/memory_use.h"
-#include "server/params.h"
 
 namespace edgepose {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "daemon/clock.h"
 #include "daemon/log.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 #include "server/answer_messages.h"
 
@@ -16,8 +17,9 @@ void FrameIntake::take(const ReceivedMessage& message) {
     } catch (const std::bad_alloc&) {
       refuse("", "out_of_memory", "memory: expected enough for the frame, found less");
     }
-  } else if (message.channel != kPosesChannel && message.channel != kDrillTargetsChannel &&
-             message.channel != kStatusChannel) {  // what the daemon itself says comes back to it
+  } else if (message.channel != channels::kPoses && message.channel != channels::kDrillTargets &&
+             message.channel != channels::kStatus &&
+             message.channel != channels::kArmState) {  // what the daemon itself says comes back to it
     counters_.add("messages_of_other_channels");
   }
 }

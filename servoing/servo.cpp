@@ -118,7 +118,7 @@ const ServoSample& Servo::cycle(double now, const JointVector& measured,
 }
 
 void Servo::check_arm(ServoSample& sample) {
-  const bool known = history_.add(sample.time, sample.measured);
+  const bool known = history_.add(sample.time - options_.state_age, sample.measured);
   if (state_ == ServoState::kIdle || state_ == ServoState::kFault) return;
   if (!known)
     return fail(FaultCause::kBadState, "measured joint positions are not finite, or not newer than the last");
@@ -229,8 +229,10 @@ void Servo::see_goal(const JointVector& position, ServoSample& sample, RigidTran
   sample.goal_seen = true;
   sample.standoff = standoff_;
   sample.tool_error = pose_error(goal_T_tool);
-  sample.camera_error =
-      pose_error(camera_T_model_goal(camera_T_tool_, model_T_tool) * camera_T_model.inverse());
+  const RigidTransform goal_T_camera =
+      camera_T_model_goal(camera_T_tool_, model_T_tool) * camera_T_model.inverse();
+  sample.camera_error = pose_error(goal_T_camera);
+  sample.features << goal_T_camera.translation(), rotation_vector(goal_T_camera.linear());
 }
 
 /// Chooses the turn about the axis once, at the start, so that it does not drift with the poses.

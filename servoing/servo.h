@@ -29,6 +29,7 @@ struct ServoOptions {
   double blocked_timeout =
       3;  ///< [s] held back by a singularity or a joint's limit, after which it is a fault
   double goal_timeout = 120;    ///< [s] from go to touch
+  double state_age = 0;         ///< [s] of the measured joints when they come in: they are of the last SYNC
   double max_following = 0.05;  ///< [rad] between commanded and measured joints, the drives' lag included
 
   std::string check() const;  ///< what is wrong, the field's name first, or nothing
@@ -48,7 +49,9 @@ struct ServoSample {
   JointVector measured = JointVector::Zero();  ///< [rad]
   bool goal_seen = false;                      ///< the errors and the standoff mean something
   PoseError tool_error, camera_error;          ///< to the goal that is moved to now, as believed
-  double standoff = 0;                         ///< [m] of that goal before the entry
+  /// What position-based servoing of the camera drives to zero: goal_T_camera as (t [m], theta u [rad]).
+  Twist features = Twist::Zero();
+  double standoff = 0;                     ///< [m] of that goal before the entry
   Twist camera_twist = Twist::Zero();      ///< commanded, of the camera in its own frame: the paper's plot
   double condition = 0;                    ///< of the Jacobian
   double share = 1;                        ///< of the twist that a singularity leaves

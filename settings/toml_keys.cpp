@@ -12,7 +12,7 @@
 
 #include "common/error.h"
 #include "files/whole_file.h"
-#include "settings/nearest_word.h"
+#include "common/nearest_word.h"
 
 namespace edgepose {
 namespace {

@@ -32,7 +32,9 @@ void ControlOptions::add_to(CLI::App& command, double default_timeout) {
 json ControlOptions::call(const std::string& method, const json& params,
                           const ControlClient::Waiting& waiting) const {
   const std::optional<SecretKey> secret = key.empty() ? std::nullopt : std::optional(SecretKey::read(key));
-  ControlAddress address{socket.empty() ? default_control_socket() : socket, port};
+  ControlAddress address;
+  address.socket = socket.empty() ? default_control_socket() : socket;
+  address.port = port;
   return ControlClient(address, secret).call(method, params, timeout, waiting);
 }
 

@@ -29,8 +29,8 @@
 #include "client/cli/train_command.h"
 #include "client/cli/watch_command.h"
 #include "common/error.h"
+#include "common/nearest_word.h"
 #include "common/temporary_file.h"
-#include "settings/nearest_word.h"
 
 namespace edgepose {
 namespace {

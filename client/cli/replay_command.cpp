@@ -9,12 +9,12 @@
 #include "client/cli/option_checks.h"
 #include "client/cli/record_report.h"
 #include "client/cli/text.h"
-#include "client/service/channels.h"
 #include "client/service/latency_figures.h"
 #include "client/service/log_replay.h"
 #include "client/service/recorder.h"
 #include "client/service/stop_signals.h"
 #include "common/output_target.h"
+#include "messaging/channels.h"
 #include "messaging/lcm_publisher.h"
 #include "messaging/udpm_receiver.h"
 

@@ -12,9 +12,9 @@
 #include "client/cli/watch_board.h"
 #include "client/cli/watch_report.h"
 #include "client/service/answer_judge.h"
-#include "client/service/channels.h"
 #include "client/service/message_queue.h"
 #include "client/service/stop_signals.h"
+#include "messaging/channels.h"
 #include "messaging/udpm_receiver.h"
 
 namespace edgepose {

@@ -1,6 +1,6 @@
 #include "client/service/answer_inbox.h"
 
-#include "client/service/channels.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 
 namespace edgepose {

@@ -1,8 +1,8 @@
 #include "client/service/answer_log.h"
 
-#include "client/service/channels.h"
 #include "client/service/frame_restamp.h"
 #include "common/error.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 #include "messaging/lcm_log.h"
 #include "messaging/transform_message.h"

@@ -34,10 +34,11 @@ int milliseconds_until(SteadyTime end, std::chrono::milliseconds most) {
   return static_cast<int>(std::clamp(left, std::chrono::milliseconds(0), most).count());
 }
 
-json result_of(const std::string& line, int64_t id, const std::string& where) {
+json result_of(const std::string& line, int64_t id, const ControlAddress& address) {
   const json answer = json::parse(line, nullptr, false);
   const auto malformed = [&](const std::string& found) {
-    throw InputError::at(where, "a JSON-RPC answer", found, "is it edgeposed that listens there?");
+    throw InputError::at(address.text(), "a JSON-RPC answer", found,
+                         "is it " + address.program + " that listens there?");
   };
   if (!answer.is_object()) malformed("other text");
   if (const auto error = answer.find("error"); error != answer.end()) {
@@ -78,7 +79,7 @@ json ControlClient::call(const std::string& method, const json& params, double t
   if (line.size() + 1 > kMaxRequestBytes)
     throw InputError::at(method, "a request of at most 64 KiB", std::to_string(line.size()) + " bytes");
   send(line + "\n", timeout);
-  return result_of(receive(timeout, waiting), id_, address_.text());
+  return result_of(receive(timeout, waiting), id_, address_);
 }
 
 std::string ControlClient::envelope(const std::string& method, std::string request) {

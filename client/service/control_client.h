@@ -12,8 +12,12 @@ namespace edgepose {
 
 /// Where the daemon takes commands (docs/control.md).
 struct ControlAddress {
-  std::filesystem::path socket;  ///< Unix socket, unless there is a port
-  int port = 0;                  ///< TCP, of the loopback
+  std::filesystem::path socket;       ///< Unix socket, unless there is a port
+  int port = 0;                       ///< TCP, of the loopback
+  std::string program = "edgeposed";  ///< who is expected to listen there, and what to do if nobody does
+  std::string advice =
+      "start it: systemctl start edgeposed, or edgeposed --config FILE; --socket, EDGEPOSE_SOCKET or --tcp "
+      "name another place";
 
   std::string text() const;  ///< "/run/edgepose/control.sock" or "127.0.0.1:7668"
 };

@@ -18,10 +18,8 @@ constexpr int kConnectTimeout = 5000;  // [ms]
 [[noreturn]] void fail(const ControlAddress& address, int socket, int cause) {
   if (socket >= 0) close(socket);
   const bool denied = cause == EACCES || cause == EPERM;
-  throw InputError::at(address.text(), "a running edgeposed", std::strerror(cause),
-                       denied ? "only its owner and group may command it (mode 0660)"
-                              : "start it: systemctl start edgeposed, or edgeposed --config FILE; --socket, "
-                                "EDGEPOSE_SOCKET or --tcp name another place");
+  throw InputError::at(address.text(), "a running " + address.program, std::strerror(cause),
+                       denied ? "only its owner and group may command it (mode 0660)" : address.advice);
 }
 
 /// A Unix socket's connect() may say EAGAIN at once; TCP's says EINPROGRESS.

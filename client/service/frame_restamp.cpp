@@ -1,6 +1,6 @@
 #include "client/service/frame_restamp.h"
 
-#include "client/service/channels.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 #include "messaging/lcm_publisher.h"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "client/service/channels.h"
 #include "client/service/stop_signals.h"
 #include "common/error.h"
+#include "messaging/channels.h"
 #include "messaging/udpm_packet.h"
 
 namespace edgepose {

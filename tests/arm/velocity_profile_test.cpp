@@ -11,21 +11,21 @@ namespace {
 
 constexpr double kAcceleration = 5, kJerk = 50;
 
-AxisState random_axis(ArmDraws& draws) {
+AxisMotion random_axis(ArmDraws& draws) {
   return {draws.between(-3, 3), draws.between(-3, 3), draws.between(-kAcceleration, kAcceleration)};
 }
 
 TEST(VelocityProfile, EndsAtItsTarget) {
   ArmDraws draws(1);
   for (int i = 0; i < 20000; ++i) {
-    const AxisState from = random_axis(draws);
+    const AxisMotion from = random_axis(draws);
     const double target = draws.between(-3, 3);
     const VelocityProfile profile = velocity_profile(from, target, kAcceleration, kJerk);
     const double end = profile.duration();
-    const AxisState just_before = profile.after(from, end * (1 - 1e-12));
+    const AxisMotion just_before = profile.after(from, end * (1 - 1e-12));
     EXPECT_NEAR(just_before.velocity, target, 1e-9);
     EXPECT_NEAR(just_before.acceleration, 0, 1e-6);
-    const AxisState later = profile.after(from, end + 1);
+    const AxisMotion later = profile.after(from, end + 1);
     EXPECT_EQ(later.velocity, target);
     EXPECT_EQ(later.acceleration, 0);
     EXPECT_NEAR(later.position, just_before.position + target, 1e-8);
@@ -35,12 +35,12 @@ TEST(VelocityProfile, EndsAtItsTarget) {
 TEST(VelocityProfile, KeepsItsLimitsOnTheWay) {
   ArmDraws draws(2);
   for (int i = 0; i < 2000; ++i) {
-    const AxisState from = random_axis(draws);
+    const AxisMotion from = random_axis(draws);
     const VelocityProfile profile = velocity_profile(from, draws.between(-3, 3), kAcceleration, kJerk);
-    AxisState last = from;
+    AxisMotion last = from;
     const double step = profile.duration() / 100 + 1e-6;
     for (int k = 1; k <= 101; ++k) {
-      const AxisState state = profile.after(from, k * step);
+      const AxisMotion state = profile.after(from, k * step);
       EXPECT_LE(std::abs(state.acceleration), kAcceleration + 1e-9);
       EXPECT_LE(std::abs(state.acceleration - last.acceleration), kJerk * step + 1e-6);
       last = state;
@@ -56,7 +56,7 @@ TEST(VelocityProfile, NoProfileWithinTheLimitsIsFaster) {
   // Braking already as hard as allowed, the rest of it: nothing is gained or lost by looking again.
   ArmDraws draws(3);
   for (int i = 0; i < 5000; ++i) {
-    const AxisState from = random_axis(draws);
+    const AxisMotion from = random_axis(draws);
     const VelocityProfile whole = velocity_profile(from, 0, kAcceleration, kJerk);
     const double part = draws.between(0, whole.duration());
     const VelocityProfile rest = velocity_profile(whole.after(from, part), 0, kAcceleration, kJerk);
@@ -67,12 +67,12 @@ TEST(VelocityProfile, NoProfileWithinTheLimitsIsFaster) {
 TEST(VelocityProfile, ExtentHoldsWhatIsPassed) {
   ArmDraws draws(4);
   for (int i = 0; i < 2000; ++i) {
-    const AxisState from = random_axis(draws);
+    const AxisMotion from = random_axis(draws);
     const VelocityProfile profile = velocity_profile(from, draws.between(-3, 3), kAcceleration, kJerk);
     const MotionExtent passed = extent(from, profile);
     double lowest = from.position, highest = from.position, speed = std::abs(from.velocity);
     for (int k = 0; k <= 1000; ++k) {
-      const AxisState s = profile.after(from, profile.duration() * k / 1000);
+      const AxisMotion s = profile.after(from, profile.duration() * k / 1000);
       lowest = std::min(lowest, s.position);
       highest = std::max(highest, s.position);
       speed = std::max(speed, std::abs(s.velocity));

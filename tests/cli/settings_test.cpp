@@ -11,7 +11,7 @@
 
 #include "client/cli/set_input.h"
 #include "common/error.h"
-#include "settings/nearest_word.h"
+#include "common/nearest_word.h"
 
 namespace edgepose::test {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <atomic>
 
-#include "client/service/channels.h"
+#include "messaging/channels.h"
 #include "client/service/clock.h"
 #include "messaging/checked_decode.h"
 #include "messaging/transform_message.h"

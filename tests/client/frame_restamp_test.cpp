@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "client/service/channels.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 #include "messaging/depth_message.h"
 #include "messaging/lcm_publisher.h"

@@ -22,11 +22,13 @@ std::string text_of(const std::filesystem::path& path) {
 std::set<std::string> named(const std::string& pattern) {
   const std::regex regex(pattern);
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(kSource / "server")) {
-    const std::string text = text_of(entry.path());
-    for (auto it = std::sregex_iterator(text.begin(), text.end(), regex); it != std::sregex_iterator(); ++it)
-      names.insert((*it)[1].str());
-  }
+  for (const char* folder : {"server", "daemon"})
+    for (const auto& entry : std::filesystem::directory_iterator(kSource / folder)) {
+      const std::string text = text_of(entry.path());
+      for (auto it = std::sregex_iterator(text.begin(), text.end(), regex); it != std::sregex_iterator();
+           ++it)
+        names.insert((*it)[1].str());
+    }
   return names;
 }
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/params.h"
+#include "daemon/params.h"
 
 namespace edgepose {
 namespace {

@@ -8,5 +8,6 @@ inline constexpr const char* kCloud = "EDGEPOSE_CLOUD";
 inline constexpr const char* kPoses = "EDGEPOSE_POSES";
 inline constexpr const char* kDrillTargets = "EDGEPOSE_DRILL_TARGETS";
 inline constexpr const char* kStatus = "EDGEPOSE_STATUS";
+inline constexpr const char* kArmState = "EDGEPOSE_ARM_STATE";
 
 }  // namespace edgepose::channels

@@ -1,4 +1,4 @@
-#include "settings/nearest_word.h"
+#include "common/nearest_word.h"
 
 #include <algorithm>
 #include <limits>

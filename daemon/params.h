@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "daemon/json_rpc.h"
-#include "settings/nearest_word.h"
+#include "common/nearest_word.h"
 
 namespace edgepose {
 

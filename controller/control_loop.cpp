@@ -1,0 +1,108 @@
+#include "controller/control_loop.h"
+
+#include <chrono>
+#include <utility>
+
+#include "bus/steady_clock.h"
+
+namespace edgepose {
+
+ControlLoop::ControlLoop(std::unique_ptr<CanBus> bus,
+                         const std::function<std::unique_ptr<ArmController>(CanBus&)>& make, PoseInbox& poses,
+                         double cycle, int rt_priority)
+    : bus_(std::move(bus), frames_),
+      controller_(make(bus_)),
+      poses_(poses),
+      cycle_(cycle),
+      rt_priority_(rt_priority) {}
+
+ControlLoop::~ControlLoop() { finish(0); }
+
+void ControlLoop::start() {
+  thread_ = std::thread([this] { run(); });
+  started_.wait(false);
+}
+
+bool ControlLoop::post(const ArmRequest& request) {
+  const std::scoped_lock lock(mutex_);
+  if (busy_) return false;
+  busy_ = true;
+  request_ = request;
+  return true;
+}
+
+std::optional<std::string> ControlLoop::take_answer() {
+  const std::scoped_lock lock(mutex_);
+  if (!answer_) return std::nullopt;
+  busy_ = false;
+  return std::exchange(answer_, std::nullopt);
+}
+
+void ControlLoop::finish(double seconds) {
+  if (!thread_.joinable()) return;
+  stop_ = true;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  const auto has_power = [&] {
+    const MasterPhase phase = newest().phase;
+    return phase == MasterPhase::kEnabling || phase == MasterPhase::kEnabled ||
+           phase == MasterPhase::kDisabling;
+  };
+  while (has_power() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ending_ = true;
+  thread_.join();
+}
+
+ControlSample ControlLoop::newest() const {
+  const std::scoped_lock lock(mutex_);
+  return newest_;
+}
+
+std::string ControlLoop::fault_text() const {
+  const std::scoped_lock lock(mutex_);
+  return fault_text_;
+}
+
+std::string ControlLoop::real_time_fault() const {
+  const std::scoped_lock lock(mutex_);
+  return real_time_fault_;
+}
+
+void ControlLoop::run() {
+  if (rt_priority_ > 0) {
+    std::string fault = become_real_time(rt_priority_);
+    const std::scoped_lock lock(mutex_);
+    real_time_fault_ = std::move(fault);
+  }
+  started_ = true;
+  started_.notify_one();
+  CycleClock clock(static_cast<int64_t>(cycle_ * 1e9));
+  while (!ending_) {
+    const int64_t deadline = clock.wait(times_);
+    const int64_t now = steady_ns();
+    serve_requests(now);
+    const ControlSample& sample = controller_->cycle(now, poses_.take_reading());
+    samples_.push(sample);
+    show(sample);
+    times_.add(now - deadline, steady_ns() - now);
+  }
+}
+
+void ControlLoop::serve_requests(int64_t now_ns) {
+  if (stop_.exchange(false)) controller_->stop(now_ns);
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  if (request_ && controller_->request(*request_)) request_.reset();
+  if (!answer_) answer_ = controller_->take_answer();
+}
+
+void ControlLoop::show(const ControlSample& sample) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  const bool is_fault = sample.servo.state == ServoState::kFault;
+  if (is_fault && fault_text_.empty()) fault_text_ = controller_->fault_text();
+  if (!is_fault) fault_text_.clear();
+  newest_ = sample;
+}
+
+}  // namespace edgepose

@@ -1,0 +1,77 @@
+#pragma once
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "bus/recorded_bus.h"
+#include "common/spsc_ring.h"
+#include "controller/arm_controller.h"
+#include "controller/cycle_clock.h"
+#include "controller/pose_inbox.h"
+
+namespace edgepose {
+
+/// Runs an ArmController on a thread of its own, in real time. That thread never waits for another: poses and
+/// requests are left for it, samples and frames it leaves for others.
+class ControlLoop {
+ public:
+  static constexpr size_t kSamples = 1 << 12, kFrames = 1 << 16;  // 20 s; 10 s of a full bus
+
+  /// `make`: makes the controller on the bus that it is given (bus and controller are used on the loop's
+  /// thread only). `rt_priority`: of SCHED_FIFO; 0: none.
+  ControlLoop(std::unique_ptr<CanBus> bus, const std::function<std::unique_ptr<ArmController>(CanBus&)>& make,
+              PoseInbox& poses, double cycle, int rt_priority);
+  ControlLoop(const ControlLoop&) = delete;
+  ControlLoop& operator=(const ControlLoop&) = delete;
+  ~ControlLoop();  ///< the arm must be at rest: see finish()
+
+  /// Returns when the thread runs and the system has said whether it is real-time.
+  void start();
+  /// Leaves a request for the loop; false while another is worked on.
+  bool post(const ArmRequest& request);
+  /// The answer to it, once it is there.
+  std::optional<std::string> take_answer();
+  /// The controlled stop, in the next cycle.
+  void stop() { stop_ = true; }
+  /// Stops the arm, waits until it is at rest without power (at most `seconds`), ends the thread.
+  void finish(double seconds);
+
+  /// As of the last cycle, or the one before it.
+  ControlSample newest() const;
+  std::string fault_text() const;       ///< one line; empty without a fault
+  std::string real_time_fault() const;  ///< what the system refused; empty if nothing
+  const CycleTimes& times() const { return times_; }
+
+  /// For one other thread that writes and publishes.
+  SpscRing<ControlSample>& samples() { return samples_; }
+  SpscRing<CanFrame>& frames() { return frames_; }
+
+ private:
+  void run();
+  void serve_requests(int64_t now_ns);
+  void show(const ControlSample& sample);
+
+  SpscRing<ControlSample> samples_{kSamples};
+  SpscRing<CanFrame> frames_{kFrames};
+  RecordedBus bus_;
+  std::unique_ptr<ArmController> controller_;
+  PoseInbox& poses_;
+  const double cycle_;
+  const int rt_priority_;
+  CycleTimes times_;
+  std::atomic<bool> stop_ = false, started_ = false, ending_ = false;
+
+  mutable std::mutex mutex_;           // held for moments; the loop only tries
+  std::optional<ArmRequest> request_;  // guarded by mutex_, as all below
+  bool busy_ = false;
+  std::optional<std::string> answer_;
+  ControlSample newest_;
+  std::string fault_text_, real_time_fault_;
+  std::thread thread_;
+};
+
+}  // namespace edgepose

@@ -1,0 +1,56 @@
+#include "controller/cycle_clock.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <time.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "bus/steady_clock.h"
+
+namespace edgepose {
+
+double CycleTimes::quantile(const Bins& bins, double share) {
+  uint64_t all = 0;
+  for (const auto& bin : bins) all += bin.load(std::memory_order_relaxed);
+  const double wanted = share * static_cast<double>(all);
+  double seen = 0;
+  for (size_t i = 0; i < bins.size(); ++i) {
+    seen += bins[i].load(std::memory_order_relaxed);
+    if (seen >= wanted && seen > 0) return 1e-9 * static_cast<double>((i + 1) * kBinNs);
+  }
+  return 0;
+}
+
+uint64_t CycleTimes::cycles() const {
+  uint64_t all = 0;
+  for (const auto& bin : late_) all += bin.load(std::memory_order_relaxed);
+  return all;
+}
+
+int64_t CycleClock::wait(CycleTimes& times) {
+  const int64_t now = steady_ns();
+  next_ns_ = next_ns_ == 0 ? now + period_ns_ : next_ns_ + period_ns_;
+  if (now > next_ns_) {
+    const int64_t missed = (now - next_ns_) / period_ns_ + 1;
+    times.add_missed(static_cast<uint64_t>(missed));
+    next_ns_ += missed * period_ns_;
+  }
+  timespec until{next_ns_ / 1'000'000'000, next_ns_ % 1'000'000'000};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+  return next_ns_;
+}
+
+std::string become_real_time(int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  if (const int fault = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters); fault != 0)
+    return std::string("SCHED_FIFO: ") + std::strerror(fault);
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) return std::string("mlockall: ") + std::strerror(errno);
+  return "";
+}
+
+}  // namespace edgepose

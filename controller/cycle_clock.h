@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+namespace edgepose {
+
+/// How late cycles began and how long they took, as counts in bins of 10 us. One thread adds; any reads.
+class CycleTimes {
+ public:
+  static constexpr int64_t kBinNs = 10'000;
+
+  void add(int64_t late_ns, int64_t took_ns) {
+    count(late_, late_ns);
+    count(took_, took_ns);
+    if (late_ns > worst_.load(std::memory_order_relaxed)) worst_.store(late_ns, std::memory_order_relaxed);
+  }
+  void add_missed(uint64_t cycles) { missed_.fetch_add(cycles, std::memory_order_relaxed); }
+
+  double late(double share) const { return quantile(late_, share); }  ///< [s] upper edge of the bin
+  double took(double share) const { return quantile(took_, share); }  ///< [s]
+  double worst_late() const { return 1e-9 * static_cast<double>(worst_.load(std::memory_order_relaxed)); }
+  uint64_t cycles() const;
+  uint64_t missed() const { return missed_.load(std::memory_order_relaxed); }  ///< left out, being late
+
+ private:
+  static constexpr size_t kBins = 2001;  // the last holds all above 20 ms
+  using Bins = std::array<std::atomic<uint32_t>, kBins>;
+  static void count(Bins& bins, int64_t ns) {
+    const int64_t bin = ns < 0 ? 0 : ns / kBinNs;
+    bins[bin < static_cast<int64_t>(kBins) ? static_cast<size_t>(bin) : kBins - 1].fetch_add(
+        1, std::memory_order_relaxed);
+  }
+  static double quantile(const Bins& bins, double share);
+
+  Bins late_{}, took_{};
+  std::atomic<int64_t> worst_ = 0;
+  std::atomic<uint64_t> missed_ = 0;
+};
+
+/// Deadlines a period apart on the steady clock, from the first wait on; those that were missed are left out,
+/// never made up for in a burst.
+class CycleClock {
+ public:
+  explicit CycleClock(int64_t period_ns) : period_ns_(period_ns) {}
+
+  /// Sleeps until the next deadline and returns it [ns].
+  int64_t wait(CycleTimes& times);
+
+ private:
+  const int64_t period_ns_;
+  int64_t next_ns_ = 0;
+};
+
+/// Makes the calling thread one that the system runs before all others, and keeps the program's memory from
+/// being paged out. Empty, or what the system refuses: then the cycle is as late as the machine is busy.
+std::string become_real_time(int priority);
+
+}  // namespace edgepose
