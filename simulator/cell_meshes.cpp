@@ -54,7 +54,8 @@ Mesh drill_mesh(double length) {
     const double behind = std::min(ring.behind, length);
     for (uint32_t side = 0; side < kSides; ++side) {
       const double turn = 2 * std::numbers::pi * side / kSides, radius = drill_radius(behind);
-      mesh.vertices.emplace_back(Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), -behind).cast<float>());
+      mesh.vertices.emplace_back(
+          Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), -behind).cast<float>());
     }
     ++rings;
     if (ring.behind >= length) break;

@@ -18,10 +18,10 @@ std::optional<JointVector> joints_for(const ArmGeometry& arm, const RigidTransfo
   for (int i = 0; i < kMaxSteps; ++i) {
     const RigidTransform now = base_T_flange(arm, joints);
     Twist off;
-    off << goal.translation() - now.translation(),
-        rotation_vector(goal.linear() * now.linear().transpose());
+    off << goal.translation() - now.translation(), rotation_vector(goal.linear() * now.linear().transpose());
     if (off.norm() < kExact) {
-      const bool within = (joints.array() >= arm.lower.array()).all() && (joints.array() <= arm.upper.array()).all();
+      const bool within =
+          (joints.array() >= arm.lower.array()).all() && (joints.array() <= arm.upper.array()).all();
       return within ? std::optional(joints) : std::nullopt;
     }
     const Jacobian jacobian = flange_jacobian(arm, joints);

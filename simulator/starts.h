@@ -13,11 +13,11 @@ std::optional<JointVector> joints_for(const ArmGeometry& arm, const RigidTransfo
 
 /// Where an arm may start from.
 struct StartOptions {
-  double standoff = 0.04;          ///< [m] of the pose about which starts are drawn
-  double max_distance = 0.1;       ///< [m] of the tip from there
-  double max_turn = 0.34906585;    ///< [rad] of the tool: 20 degrees
-  double min_clearance = 0.02;     ///< [m] of the drill from bone and table
-  double joint_margin = 0.3;       ///< [rad] kept from the joints' limits
+  double standoff = 0.04;        ///< [m] of the pose about which starts are drawn
+  double max_distance = 0.1;     ///< [m] of the tip from there
+  double max_turn = 0.34906585;  ///< [rad] of the tool: 20 degrees
+  double min_clearance = 0.02;   ///< [m] of the drill from bone and table
+  double joint_margin = 0.3;     ///< [rad] kept from the joints' limits
 
   std::string check() const;
 };

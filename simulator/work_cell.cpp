@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "arm/kinematics.h"
 #include "arm/rigid_motion.h"
@@ -93,11 +94,13 @@ WorkCell make_work_cell(const Mesh& model, const DrillPlan& plan, const std::str
   cell.width = 640, cell.height = 576;
   cell.min_depth = 0.5, cell.max_depth = 3.86;
 
-  const auto [low, high] = bounds(model, cell.base_T_model);
+  // z up, against the drill.
+  const RigidTransform turned = rigid_transform(rotation_matrix({std::numbers::pi, 0, 0}), Vector3d::Zero());
+  const RigidTransform base_T_up = base_T_tool(cell, cell.nominal) * turned;
+  const auto [low, high] = bounds(model, base_T_up.inverse() * cell.base_T_model);
   const Vector3d middle = (low + high) / 2;
-  cell.table_height = low.z() - kTableGap;
-  cell.table = box_mesh({middle.x() - kTableHalf, middle.y() - kTableHalf, cell.table_height - kTableThickness},
-                        {middle.x() + kTableHalf, middle.y() + kTableHalf, cell.table_height});
+  cell.base_T_table = base_T_up * Eigen::Translation3d(middle.x(), middle.y(), low.z() - kTableGap);
+  cell.table = box_mesh({-kTableHalf, -kTableHalf, -kTableThickness}, {kTableHalf, kTableHalf, 0});
   return cell;
 }
 
@@ -149,8 +152,9 @@ double clearance(const WorkCell& cell, const RigidTransform& base_T_tool) {
     least = std::min(least, (off - behind * back).norm() - drill_radius(behind));
   }
   constexpr double kStep = 0.01;  // [m]
+  const RigidTransform table_T_tool = cell.base_T_table.inverse() * base_T_tool;
   for (double behind = 0; behind <= length; behind += kStep) {
-    const double height = (base_T_tool * Vector3d(0, 0, -behind)).z() - cell.table_height;
+    const double height = (table_T_tool * Vector3d(0, 0, -behind)).z();
     least = std::min(least, height - drill_radius(behind));
   }
   return least;

@@ -12,29 +12,31 @@ namespace edgepose {
 
 /// What is put into the work cell.
 struct WorkCellOptions {
-  std::filesystem::path model;               ///< mesh of the bone
+  std::filesystem::path model;                ///< mesh of the bone
   LengthUnit unit = LengthUnit::kMillimetre;  ///< of the mesh
-  std::filesystem::path plan;                ///< drill plan for it
+  std::filesystem::path plan;                 ///< drill plan for it
   std::string target;  ///< of the plan: the bone is placed so that the arm touches it in its best posture;
                        ///< empty: the first
 
   std::string check() const;  ///< what is wrong, the field's name first, or nothing
 };
 
-/// An arm with a drill and a depth camera on its flange over a bone on a table. Frames as in docs/servoing.md.
+/// An arm with a drill and a depth camera on its flange over a bone on a (tilted) table. Frames as in
+/// docs/servoing.md.
 struct WorkCell {
   ArmGeometry arm;
   JointVector nominal = JointVector::Zero();  ///< [rad] in which the drill touches the target
   RigidTransform flange_T_camera = RigidTransform::Identity();
   RigidTransform flange_T_tool = RigidTransform::Identity();
   RigidTransform base_T_model = RigidTransform::Identity();
-  Mesh model;  ///< [m] model frame
-  Mesh tool;   ///< [m] tool frame
-  Mesh table;  ///< [m] base frame
+  RigidTransform base_T_table =
+      RigidTransform::Identity();  ///< middle of its top, z up, against the target's axis
+  Mesh model;                      ///< [m] model frame
+  Mesh tool;                       ///< [m] tool frame
+  Mesh table;                      ///< [m] table frame
   Camera camera;
-  int width = 0, height = 0;             ///< [pixels]
-  double min_depth = 0, max_depth = 0;   ///< [m] that the camera measures
-  double table_height = 0;               ///< [m] of its top, along z of the base
+  int width = 0, height = 0;            ///< [pixels]
+  double min_depth = 0, max_depth = 0;  ///< [m] that the camera measures
   DrillPlan plan;
   std::string target;  ///< name of the target that is touched in the nominal posture
 
@@ -52,8 +54,8 @@ RigidTransform base_T_tool(const WorkCell& cell, const JointVector& joints);
 RigidTransform model_T_tool(const WorkCell& cell, const JointVector& joints);
 RigidTransform camera_T_model(const WorkCell& cell, const JointVector& joints);
 
-/// The pose of the tool `standoff` [m] before the entry of a hole, on its axis; x of the tool towards z of the
-/// model as far as the axis allows.
+/// The pose of the tool `standoff` [m] before the entry of a hole, on its axis; x of the tool towards z of
+/// the model as far as the axis allows.
 RigidTransform model_T_tool_at(const DrillTarget& target, double standoff);
 
 /// Where the tip is as against the entry of a hole. The turn about the drill's axis is free.
@@ -64,7 +66,8 @@ struct PositioningError {
   double angle = 0;        ///< [rad] between the drill's axis and the hole's, 0 to pi
 };
 PositioningError positioning_error(const RigidTransform& model_T_tool, const DrillTarget& target);
-PositioningError positioning_error(const WorkCell& cell, const JointVector& joints, const DrillTarget& target);
+PositioningError positioning_error(const WorkCell& cell, const JointVector& joints,
+                                   const DrillTarget& target);
 
 /// [m] of the drill's surface from the model's vertices or the table, whichever is nearer; negative: within.
 /// To the spacing of the model's vertices.
