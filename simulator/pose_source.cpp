@@ -72,6 +72,8 @@ std::optional<PoseWrong> pose_wrong_named(const std::string& name) {
   return static_cast<PoseWrong>(found - kWrongs.begin());
 }
 
+std::string name_of(PoseWrong wrong) { return std::string(kWrongs.at(static_cast<size_t>(wrong))); }
+
 std::string pose_wrong_names() {
   std::string names;
   for (const std::string_view name : kWrongs) names += (names.empty() ? "" : ", ") + std::string(name);

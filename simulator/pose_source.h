@@ -34,6 +34,7 @@ enum class PoseWrong : uint8_t {
 /// "none", "old", "duplicate", "future", "jump_50mm", "turn_20", "turn_180", "nan", "not_orthonormal",
 /// "zero_quaternion", "unsigned", "altered", "replayed", "silent", "hour_step"; nothing for another word.
 std::optional<PoseWrong> pose_wrong_named(const std::string& name);
+std::string name_of(PoseWrong wrong);
 /// All of these names, with commas.
 std::string pose_wrong_names();
 

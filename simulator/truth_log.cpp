@@ -12,7 +12,7 @@ namespace edgepose {
 namespace {
 
 constexpr int64_t kLeastStep = 1'000'000;  // [ns]
-constexpr size_t kMaxWaiting = 60'000;
+constexpr size_t kMaxWaitingSamples = 60'000;
 
 double tip_speed(const WorkCell& cell, const TruthSample& sample) {
   return point_velocity(cell.arm, sample.position, sample.velocity, cell.flange_T_tool.translation()).norm();
@@ -71,7 +71,7 @@ void TruthLog::add(const TruthSample& sample) {
   const std::scoped_lock lock(mutex_);
   if (last_ns_ != INT64_MIN && sample.time_ns - last_ns_ < kLeastStep) return;
   last_ns_ = sample.time_ns;
-  if (waiting_.size() >= kMaxWaiting)
+  if (waiting_.size() >= kMaxWaitingSamples)
     ++lost_;
   else
     waiting_.push_back(sample);
