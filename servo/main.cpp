@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "controller/controller.h"
 #include "servo/arm_commands.h"
+#include "servo/experiment_command.h"
 
 namespace edgepose {
 namespace {
@@ -86,6 +87,7 @@ int run(int argc, char** argv) {
   app.footer(kExamples);
   add_run_command(app);
   add_client_commands(app);
+  add_experiment_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -23,13 +23,13 @@ std::string ApproachOptions::check() const {
                        {"approach.tube_rotation", tube_rotation, max_rotation, 0.1}});
 }
 
-bool Convergence::add(const PoseError& error) {
+bool Convergence::add(const GoalError& error) {
   const bool near = error.translation < options_.max_translation && error.rotation < options_.max_rotation;
   in_a_row_ = near ? in_a_row_ + 1 : 0;
   return in_a_row_ >= options_.distinct_poses;
 }
 
-double next_standoff(double standoff, const PoseError& error, double seconds,
+double next_standoff(double standoff, const GoalError& error, double seconds,
                      const ApproachOptions& options) {
   const bool in_tube =
       error.translation <= options.tube_translation && error.rotation <= options.tube_rotation;

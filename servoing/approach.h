@@ -26,7 +26,7 @@ class Convergence {
   explicit Convergence(const ApproachOptions& options) : options_(options) {}
 
   /// Once for each pose taken. True from the last of enough in a row on.
-  bool add(const PoseError& error);
+  bool add(const GoalError& error);
   void restart() { in_a_row_ = 0; }
   int in_a_row() const { return in_a_row_; }
 
@@ -38,6 +38,6 @@ class Convergence {
 /// Where the goal on the axis is in the next cycle: `standoff` [m] before the entry, moved on by `seconds` at
 /// four fifths of the axial speed, never past 0; as long as the tool follows within the tube, else it waits.
 /// Pure.
-double next_standoff(double standoff, const PoseError& error, double seconds, const ApproachOptions& options);
+double next_standoff(double standoff, const GoalError& error, double seconds, const ApproachOptions& options);
 
 }  // namespace edgepose

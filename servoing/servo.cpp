@@ -136,8 +136,9 @@ void Servo::take_pose(const PoseReading& reading, ServoSample& sample) {
   sample.verdict = gate_.judge(reading, sample.time, joints.has_value(), expected);
   if (sample.verdict != PoseVerdict::kTaken) return;
   const RigidTransform base_T_model = base_T_camera(*joints) * reading.camera_T_model;
-  base_T_model_ = base_T_model_ ? blended(*base_T_model_, base_T_model, options_.newest_share) : base_T_model;
   ++poses_taken_;
+  const double share = std::max(options_.newest_share, 1.0 / poses_taken_);
+  base_T_model_ = base_T_model_ ? blended(*base_T_model_, base_T_model, share) : base_T_model;
   last_capture_ = reading.capture_time;
   if (!may_move(state_) || !goal_chosen_) return;
   RigidTransform goal_T_tool;
@@ -228,10 +229,10 @@ void Servo::see_goal(const JointVector& position, ServoSample& sample, RigidTran
   goal_T_tool = tool_T_tool_goal(camera_T_tool_, camera_T_model, model_T_tool).inverse();
   sample.goal_seen = true;
   sample.standoff = standoff_;
-  sample.tool_error = pose_error(goal_T_tool);
+  sample.tool_error = goal_error(goal_T_tool);
   const RigidTransform goal_T_camera =
       camera_T_model_goal(camera_T_tool_, model_T_tool) * camera_T_model.inverse();
-  sample.camera_error = pose_error(goal_T_camera);
+  sample.camera_error = goal_error(goal_T_camera);
   sample.features << goal_T_camera.translation(), rotation_vector(goal_T_camera.linear());
 }
 

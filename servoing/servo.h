@@ -20,9 +20,9 @@ struct ServoOptions {
   AdaptiveGain gain;
   PoseGateOptions gate;
   JointHistoryOptions history;
-  double newest_share =
-      0.5;  ///< (0, 1] of a new pose in the estimate of where the model is; less is smoother, later
-  int confirming_poses = 3;  ///< that must agree before the arm moves
+  double newest_share = 0.2;  ///< (0, 1] of a new pose in the estimate of where the model is; less is
+                              ///< smoother, later. The first poses are averaged
+  int confirming_poses = 3;   ///< that must agree before the arm moves
   double pose_timeout =
       0.6;  ///< [s] without a new pose (since its capture) after which the arm slows to rest ...
   double lost_timeout = 5;  ///< [s] ... and after which it is a fault
@@ -48,7 +48,7 @@ struct ServoSample {
   JointState command;                          ///< to be sent in this cycle
   JointVector measured = JointVector::Zero();  ///< [rad]
   bool goal_seen = false;                      ///< the errors and the standoff mean something
-  PoseError tool_error, camera_error;          ///< to the goal that is moved to now, as believed
+  GoalError tool_error, camera_error;          ///< to the goal that is moved to now, as believed
   /// What position-based servoing of the camera drives to zero: goal_T_camera as (t [m], theta u [rad]).
   Twist features = Twist::Zero();
   double standoff = 0;                     ///< [m] of that goal before the entry

@@ -8,7 +8,7 @@
 
 namespace edgepose {
 
-PoseError pose_error(const RigidTransform& goal_T_body) {
+GoalError goal_error(const RigidTransform& goal_T_body) {
   return {goal_T_body.translation().norm(), rotation_angle(goal_T_body)};
 }
 

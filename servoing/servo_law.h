@@ -6,12 +6,12 @@
 namespace edgepose {
 
 /// How far the body (camera or tool) is from its goal.
-struct PoseError {
+struct GoalError {
   double translation = 0;  ///< [m]
   double rotation = 0;     ///< [rad] 0 to pi
 };
 
-PoseError pose_error(const RigidTransform& goal_T_body);
+GoalError goal_error(const RigidTransform& goal_T_body);
 
 /// The gain falls from `at_zero` to `at_infinity` as the error grows, so that far away the arm does not rush
 /// and close by it does not creep: ViSP's vpAdaptiveGain, l(x) = (l0 - loo) exp(-s x / (l0 - loo)) + loo.

@@ -37,11 +37,14 @@ CellCamera::CellCamera(const WorkCell& cell, const Camera& told, const CellCamer
   drift_ = options.drift * (2 * drift_draws_.uniform() - 1);
 }
 
-RenderedView CellCamera::ideal(const JointVector& joints) {
+const RenderedView& CellCamera::ideal(const JointVector& joints) {
+  if (joints == view_joints_) return view_;  // an arm at rest sees the same
   const RigidTransform camera_T_base = (base_T_flange(cell_.arm, joints) * cell_.flange_T_camera).inverse();
   renderer_.set_pose(kModel, camera_T_base * cell_.base_T_model);
   renderer_.set_pose(kTable, camera_T_base * cell_.base_T_table);
-  return renderer_.render(cell_.camera, cell_.width, cell_.height, options_.threads);
+  view_ = renderer_.render(cell_.camera, cell_.width, cell_.height, options_.threads);
+  view_joints_ = joints;
+  return view_;
 }
 
 DepthFrame CellCamera::capture(const JointVector& joints, int64_t capture_utime) {

@@ -38,7 +38,7 @@ class CellCamera {
 
   /// Without noise, and what each pixel shows.
   enum Object : int32_t { kNothing = -1, kModel, kTable, kTool };
-  RenderedView ideal(const JointVector& joints);
+  const RenderedView& ideal(const JointVector& joints);
 
   double drift() const { return drift_; }  ///< [m] of the last capture
 
@@ -49,6 +49,8 @@ class CellCamera {
   DepthRenderer renderer_;
   RandomDraws drift_draws_, sensor_draws_;
   double drift_ = 0;
+  RenderedView view_;                                     ///< of the last call of ideal() ...
+  JointVector view_joints_ = JointVector::Constant(NAN);  ///< ... at these joints
   int64_t sequence_ = 0;
 };
 

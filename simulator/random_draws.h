@@ -8,7 +8,17 @@ namespace edgepose {
 
 /// What random numbers are drawn for. Each purpose has its own series of a seed, so that the draws of one do
 /// not depend on what else was drawn.
-enum class DrawPurpose : uint64_t { kStart = 1, kIntrinsics, kHandEye, kTool, kDrift, kSensor, kPose };
+enum class DrawPurpose : uint64_t {
+  kStart = 1,
+  kIntrinsics,
+  kHandEye,
+  kTool,
+  kDrift,
+  kSensor,
+  kPose,
+  kLandmarks,
+  kTouch
+};
 
 /// Random numbers, the same on every machine for the same seed and purpose (SplitMix64: Steele, Lea, Flood
 /// 2014).

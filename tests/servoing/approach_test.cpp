@@ -9,7 +9,7 @@ constexpr double kDegree = 0.017453292519943295;
 
 TEST(Convergence, NeedsFiveInARow) {
   Convergence convergence{ApproachOptions()};
-  const PoseError near{0.00029, 0.19 * kDegree};
+  const GoalError near{0.00029, 0.19 * kDegree};
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(convergence.add(near));
   EXPECT_FALSE(convergence.add({0.00031, 0})) << "one too far starts anew";
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(convergence.add(near));

@@ -137,14 +137,14 @@ TrialResult positioning_trial(const TrialSetup& setup, uint64_t seed) {
   } else {
     for (int step = 0; step < kSteps; ++step) {
       const RigidTransform camera_T_goal = seen() * goal.inverse();
-      const PoseError left = pose_error(camera_T_goal);
+      const GoalError left = goal_error(camera_T_goal);
       if (left.translation < 0.0003 && left.rotation < 0.2 * M_PI / 180)
         result.steps = std::min(result.steps, step);
       const RigidTransform& told = world.told.flange_T_camera;
       flange = flange * told * part(camera_T_goal, kGain) * told.inverse();
     }
   }
-  result.error = pose_error(hole.inverse() * flange * world.truth.flange_T_tool);
+  result.error = goal_error(hole.inverse() * flange * world.truth.flange_T_tool);
   return result;
 }
 

@@ -26,7 +26,7 @@ struct TrialSetup {
 };
 
 struct TrialResult {
-  PoseError error;  ///< of the true tool, at the end
+  GoalError error;  ///< of the true tool, at the end
   int steps = 0;  ///< of 2 s until the measured pose was within 0.3 mm and 0.2 degrees of its goal; 21: never
 };
 

@@ -13,12 +13,12 @@ TEST(ServoLaw, LeadsStraightToTheGoal) {
     RigidTransform goal_T_body = draws.pose(2.5, 0.3);
     const Eigen::Vector3d start = goal_T_body.translation();
     constexpr double kStep = 0.01;
-    PoseError last = pose_error(goal_T_body);
+    GoalError last = goal_error(goal_T_body);
     for (int i = 0; i < 3000; ++i) {
       const Twist twist = servo_command(goal_T_body, {}).body_twist;
       goal_T_body =
           goal_T_body * rigid_transform(rotation_matrix(twist.tail<3>() * kStep), twist.head<3>() * kStep);
-      const PoseError error = pose_error(goal_T_body);
+      const GoalError error = goal_error(goal_T_body);
       ASSERT_LE(error.rotation, last.rotation + 1e-12);
       last = error;
       // On the line from the start to the goal, to the error of the steps.
