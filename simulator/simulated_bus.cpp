@@ -40,7 +40,8 @@ void send_record(int socket, const sockaddr* address, socklen_t size, bool conne
 
 SimulatedBus::SimulatedBus(std::string name) : name_(std::move(name)) {
   if (!name_.starts_with(kUnix)) return;
-  hub_ = std::make_unique<UnixBusHub>(name_.substr(std::strlen(kUnix)), UnixBusHubOptions{16, kMaxWaitingFrames});
+  hub_ = std::make_unique<UnixBusHub>(name_.substr(std::strlen(kUnix)),
+                                      UnixBusHubOptions{16, kMaxWaitingFrames});
   server_ = std::thread([this] { serve(); });
 }
 
