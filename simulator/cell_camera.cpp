@@ -7,6 +7,14 @@
 #include "matcher/option_range.h"
 
 namespace edgepose {
+namespace {
+
+const CellCameraOptions& checked(const CellCameraOptions& options) {
+  if (const std::string fault = options.check(); !fault.empty()) throw InputError("camera: " + fault);
+  return options;
+}
+
+}  // namespace
 
 SensorModel kinect_narrow() {
   SensorModel sensor = SensorModel::time_of_flight();
@@ -27,10 +35,10 @@ std::string CellCameraOptions::check() const {
 CellCamera::CellCamera(const WorkCell& cell, const Camera& told, const CellCameraOptions& options)
     : cell_(cell),
       told_(told),
-      options_(options),
+      options_(checked(options)),
+      series_(options.sensor, cell.camera, cell.width, cell.height, options.seed),
       drift_draws_(options.seed, DrawPurpose::kDrift),
       sensor_draws_(options.seed, DrawPurpose::kSensor) {
-  if (const std::string fault = options.check(); !fault.empty()) throw InputError("camera: " + fault);
   renderer_.add(cell.model);
   renderer_.add(cell.table);
   renderer_.add(cell.tool, cell.flange_T_camera.inverse() * cell.flange_T_tool);
@@ -57,7 +65,7 @@ DepthFrame CellCamera::capture(const JointVector& joints, int64_t capture_utime)
   frame.sequence = ++sequence_;
   frame.camera = options_.name;
   frame.intrinsics = told_;
-  frame.image = apply_sensor(truth, cell_.camera, options_.sensor, sensor_draws_.bits(), options_.threads);
+  frame.image = series_.apply(truth, sensor_draws_.bits());
   drift_ = std::clamp(drift_ + options_.drift_step * drift_draws_.normal(), -options_.drift, options_.drift);
   return frame;
 }

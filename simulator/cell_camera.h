@@ -4,7 +4,7 @@
 
 #include "messaging/depth_message.h"
 #include "render/depth_renderer.h"
-#include "render/sensor_model.h"
+#include "render/sensor_series.h"
 #include "simulator/random_draws.h"
 #include "simulator/work_cell.h"
 
@@ -47,6 +47,7 @@ class CellCamera {
   const Camera told_;
   const CellCameraOptions options_;
   DepthRenderer renderer_;
+  const SensorSeries series_;
   RandomDraws drift_draws_, sensor_draws_;
   double drift_ = 0;
   RenderedView view_;                                     ///< of the last call of ideal() ...

@@ -81,6 +81,7 @@ void DriveThread::run() {
     while (wait_for_input(port_->descriptor(), next) && steady_ns() < next) step(steady_ns());
     const int64_t now = steady_ns();
     step(now);
+    if (log_ != nullptr) log_->add(truth());
     const std::scoped_lock lock(mutex_);
     ++times_.steps;
     times_.worst_late_ns = std::max(times_.worst_late_ns, now - next);
@@ -93,7 +94,6 @@ void DriveThread::step(int64_t now_ns) {
   const std::scoped_lock lock(mutex_);
   const bool lost = arm_->step(now_ns);
   truth_ = truth_of(*arm_, now_ns);
-  if (log_ != nullptr) log_->add(truth_);
   if (!lost || !bus_.name().starts_with("unix:")) return;  // a CAN interface may come up again by itself
   port_->close();
   try {

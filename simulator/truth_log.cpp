@@ -11,7 +11,6 @@
 namespace edgepose {
 namespace {
 
-constexpr int64_t kLeastStep = 1'000'000;  // [ns]
 constexpr size_t kMaxWaitingSamples = 60'000;
 
 double tip_speed(const WorkCell& cell, const TruthSample& sample) {
@@ -69,8 +68,6 @@ TruthLog::~TruthLog() {
 
 void TruthLog::add(const TruthSample& sample) {
   const std::scoped_lock lock(mutex_);
-  if (last_ns_ != INT64_MIN && sample.time_ns - last_ns_ < kLeastStep) return;
-  last_ns_ = sample.time_ns;
   if (waiting_.size() >= kMaxWaitingSamples)
     ++lost_;
   else

@@ -40,8 +40,8 @@ class TruthLog {
   TruthLog& operator=(const TruthLog&) = delete;
   ~TruthLog();  ///< writes what waits
 
-  /// Samples less than 1 ms after the last one are left out. If more than a minute's worth waits, the
-  /// sample is lost and counted.
+  /// To be called once a millisecond, or less. If more than a minute's worth waits, the sample is lost and
+  /// counted.
   void add(const TruthSample& sample);
   uint64_t lost() const;  ///< for which there was no room: in memory or on the disk
 
@@ -54,8 +54,7 @@ class TruthLog {
   FILE* file_ = nullptr;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<TruthSample> waiting_;  // guarded by mutex_, as the next three
-  int64_t last_ns_ = INT64_MIN;
+  std::vector<TruthSample> waiting_;  // guarded by mutex_, as the next two
   uint64_t lost_ = 0;
   bool ending_ = false;
   std::thread thread_;
