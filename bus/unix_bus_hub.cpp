@@ -106,11 +106,13 @@ void UnixBusHub::pass_on(const Member& from, const FrameRecord& record) {
   for (const auto& member : members_) {
     if (member.get() == &from || member->gone) continue;
     if (member->waiting.size() >= options_.max_waiting) write_to(*member);
-    if (member->waiting.size() >= options_.max_waiting) {
+    if (member->waiting.size() < options_.max_waiting) {
+      member->waiting.push_back(record);
+    } else if (options_.loses_when_full) {
+      ++counters_.lost;
+    } else {
       member->gone = true;
       ++counters_.slow_cut_off;
-    } else {
-      member->waiting.push_back(record);
     }
   }
 }

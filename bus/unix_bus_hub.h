@@ -15,10 +15,14 @@ struct UnixBusHubOptions {
   size_t max_members = 16;
   /// Frames that wait for one member; one that lets more pile up (a second of a busy bus) is cut off.
   size_t max_waiting = 4096;
+  /// Instead of being cut off such a member loses what comes next, as a CAN controller does whose buffer is
+  /// full: with a short queue a flooded bus starves its members, as a wire would, and delays nothing.
+  bool loses_when_full = false;
 };
 
 struct UnixBusHubCounters {
   uint64_t passed_on = 0;      ///< frames that came in
+  uint64_t lost = 0;           ///< frames that a member had no room for
   uint64_t slow_cut_off = 0;   ///< members that did not take their frames
   uint64_t wrong_cut_off = 0;  ///< members that sent what is no frame
   uint64_t turned_away = 0;    ///< connections beyond max_members

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "common/error.h"
+#include "common/output_target.h"
 
 namespace edgepose {
 namespace {
@@ -46,7 +47,8 @@ std::string heading() {
 }  // namespace
 
 SampleLog::SampleLog(const std::filesystem::path& path) {
-  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const std::filesystem::path target = output_target(path);
+  descriptor_ = open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0)
     throw InputError::at(path.string(), "a file that can be written", std::strerror(errno));
   buffer_ = heading();

@@ -1,0 +1,201 @@
+/// Faults of whole processes: what is asserted is measured from the simulator's truth.
+#include <sched.h>
+#include <sys/mount.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "messaging/authentication.h"
+#include "tests/arm_process/arm_processes.h"
+
+namespace edgepose::test {
+namespace {
+
+using testing::AllOf;
+using testing::Ge;
+using testing::HasSubstr;
+using testing::Le;
+
+bool at_rest(const TruthLine& line) { return line.fastest() < 1e-4; }
+
+class ProcessFaults : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!enter_own_network())
+      GTEST_SKIP() << "needs root or user namespaces, and ip (iproute2), for a network of its own";
+  }
+  template <class Trial>
+  void repeat(const Trial& trial) {
+    for (int seed = 1; seed <= process_repetitions(); ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      trial(static_cast<uint64_t>(seed));
+      if (HasFatalFailure()) return;
+    }
+  }
+  static void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+  static void note(const std::string& what, double value) {
+    std::printf("| %s | %.0f |\n", what.c_str(), value);
+  }
+};
+
+TEST_F(ProcessFaults, ReachesTheHole) {
+  ArmProcesses arm(1);
+  arm.set_out();
+  EXPECT_TRUE(eventually([&] { return arm.state() == "converged"; }, 60)) << arm.log();
+  EXPECT_THAT(
+      [&] {
+        arm.servo("go", {{"target", "right_pedicle_screw"}});
+      },
+      testing::ThrowsMessage<std::runtime_error>(HasSubstr("go is refused while converged")));
+  arm.controller().signal(SIGTERM);
+  EXPECT_EQ(arm.controller().wait(10), 0);
+  const auto truth = arm.end_and_read_truth();
+  ASSERT_FALSE(truth.empty());
+  EXPECT_LT(std::hypot(truth.back().along, truth.back().across), 0.0003);
+  double fastest = 0;
+  for (const TruthLine& line : truth) fastest = std::max(fastest, line.tip_speed);
+  EXPECT_LT(fastest, 0.05);
+}
+
+TEST_F(ProcessFaults, KilledWhileMoving) {
+  repeat([&](uint64_t seed) {
+    ArmProcesses arm(seed);
+    arm.set_out();
+    const int64_t killed = steady_now();
+    arm.controller().signal(SIGKILL);
+    pause(0.6);
+    const auto truth = arm.end_and_read_truth();
+    const double to_stop = ms_until(truth, killed, [](const TruthLine& line) { return line.stops(); });
+    const double to_rest = ms_until(truth, killed, at_rest);
+    EXPECT_THAT(to_stop, AllOf(Ge(0), Le(100)));
+    EXPECT_THAT(to_rest, AllOf(Ge(0), Le(300)));
+    note("kill -9: drives stop, ms", to_stop);
+    note("kill -9: at rest, ms", to_rest);
+  });
+}
+
+TEST_F(ProcessFaults, AControllerThatIsStartedAgainCanArm) {
+  ArmProcesses arm(1);
+  arm.set_out();
+  arm.controller().signal(SIGKILL);
+  arm.controller().wait(5);
+  arm.start_controller();
+  arm.set_out();
+}
+
+TEST_F(ProcessFaults, HeldFor200Milliseconds) {
+  repeat([&](uint64_t seed) {
+    ArmProcesses arm(seed);
+    arm.set_out();
+    arm.controller().signal(SIGSTOP);
+    pause(0.2);
+    const int64_t resumed = steady_now();
+    arm.controller().signal(SIGCONT);
+    pause(0.5);
+    EXPECT_EQ(arm.state(), "fault");
+    const auto truth = arm.end_and_read_truth();
+    double most = 0;
+    const TruthLine* at = nullptr;
+    for (const TruthLine& line : truth) {
+      if (line.time_ns < resumed) continue;
+      if (at == nullptr) at = &line;
+      for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(line.q[i] - at->q[i]));
+    }
+    ASSERT_NE(at, nullptr);
+    EXPECT_LT(most, 1e-5) << "rad moved after it went on";
+  });
+}
+
+TEST_F(ProcessFaults, PosesEnd) {
+  repeat([&](uint64_t seed) {
+    ArmProcesses arm(seed);
+    arm.set_out();
+    const int64_t silent = steady_now();
+    arm.sim("poses", {{"wrong", "silent"}});
+    pause(1.5);
+    EXPECT_EQ(arm.state(), "approaching");
+    const auto truth = arm.end_and_read_truth();
+    const double to_rest = ms_until(truth, silent, at_rest);
+    EXPECT_THAT(to_rest, AllOf(Ge(0), Le(1200)));
+    note("poses end: at rest, ms", to_rest);
+  });
+}
+
+TEST_F(ProcessFaults, WithAKeyOnlySignedPosesMoveIt) {
+  Folder keys;
+  SecretKey::random().write(keys / "key");
+  const std::string key = keys / "key";
+  for (const std::string wrong : {"unsigned", "altered", "replayed"}) {
+    SCOPED_TRACE(wrong);
+    ArmProcesses arm(1, {"--key", key}, {"--key", key});
+    arm.servo("arm");
+    eventually([&] { return arm.servo("status")["poses_taken"] >= 3; });
+    arm.servo("go", {{"target", kHole}});
+    arm.sim("poses", {{"wrong", wrong}});
+    pause(1.2);
+    const int64_t rests = steady_now();
+    pause(0.5);
+    EXPECT_GT(arm.servo("status")["messages"]["messages_" + wrong], 10);
+    const auto truth = arm.end_and_read_truth();
+    EXPECT_GT(ms_until(truth, 0, at_rest), 0);
+    for (const TruthLine& line : truth) ASSERT_TRUE(line.time_ns <= rests || at_rest(line));
+  }
+}
+
+TEST_F(ProcessFaults, TheBusIsFlooded) {
+  repeat([&](uint64_t seed) {
+    ArmProcesses arm(seed);
+    arm.set_out();
+    const int64_t flooded = steady_now();
+    arm.sim("flood", {{"seconds", 0.5}});
+    pause(0.8);
+    EXPECT_EQ(arm.state(), "fault");
+    const auto truth = arm.end_and_read_truth();
+    const double to_stop = ms_until(truth, flooded, [](const TruthLine& line) { return line.stops(); });
+    EXPECT_THAT(to_stop, AllOf(Ge(0), Le(100)));
+    note("flooded: drives stop, ms", to_stop);
+  });
+}
+
+TEST_F(ProcessFaults, AFullDiskDoesNotMatter) {
+  // A disk of 128 KiB, of this process and its children only.
+  const Folder folder;
+  const std::string disk = folder / "";
+  if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=128k") != 0)
+    GTEST_SKIP() << "no file system of its own on this machine: " << std::strerror(errno);
+  ArmProcesses arm(1, {}, {"--log", disk + "arm.csv", "--capture", disk + "arm.pcap"});
+  arm.set_out();
+  EXPECT_TRUE(eventually([&] { return arm.state() == "converged"; }, 60)) << arm.log();
+  EXPECT_THAT(arm.log(), HasSubstr("event=recording_lost"));
+  arm.controller().signal(SIGTERM);
+  EXPECT_EQ(arm.controller().wait(10), 0);
+  std::string line;
+  for (std::ifstream file(disk + "arm.csv"); std::getline(file, line);)
+    ASSERT_EQ(std::count(line.begin(), line.end(), ','), 39) << "a line that is not whole: " << line;
+  umount2(disk.c_str(), MNT_DETACH);
+}
+
+TEST_F(ProcessFaults, SigtermBringsTheArmToRestFirst) {
+  ArmProcesses arm(2);
+  arm.set_out();
+  arm.controller().signal(SIGTERM);
+  EXPECT_EQ(arm.controller().wait(10), 0);
+  const auto truth = arm.end_and_read_truth();
+  constexpr int kSwitchOnDisabled = 2;
+  EXPECT_TRUE(at_rest(truth.back()));
+  for (const int state : truth.back().state) EXPECT_EQ(state, kSwitchOnDisabled);
+  // By the controlled stop: the tip slows down within its limits, without the drives' quick stop.
+  double most = 0;
+  for (size_t i = 10; i < truth.size(); ++i)
+    for (int axis = 0; axis < 6; ++axis)
+      most = std::max(most, std::abs(truth[i].v[axis] - truth[i - 10].v[axis]) /
+                                (1e-9 * static_cast<double>(truth[i].time_ns - truth[i - 10].time_ns)));
+  EXPECT_LT(most, 8.0) << "rad/s^2; the limit is 5, the drives' quick stop is 15";
+}
+
+}  // namespace
+}  // namespace edgepose::test
