@@ -18,6 +18,8 @@ namespace {
 
 /// Frames taken from a member before the others have their turn.
 constexpr int kBatch = 64;
+constexpr size_t kBurst = 32;        // two cycles of six drives
+constexpr size_t kWireFrames = 256;  // that wait for the wire: some 30 ms of it
 
 int packet_socket() { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
@@ -32,6 +34,7 @@ bool somebody_listens(const UnixAddress& address) {
 
 UnixBusHub::UnixBusHub(const std::filesystem::path& path, const UnixBusHubOptions& options)
     : options_(options), path_(path) {
+  if (options.rate > 0) wire_.emplace(options.rate, kBurst, kWireFrames);
   const UnixAddress address = unix_address(path);
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) {
@@ -60,11 +63,15 @@ void UnixBusHub::serve(int64_t deadline_ns) {
     const int events = POLLIN | (member->waiting.empty() ? 0 : POLLOUT);
     watched_.push_back({.fd = member->socket, .events = static_cast<short>(events), .revents = 0});
   }
-  const int64_t left = std::max<int64_t>(0, deadline_ns - steady_ns());
+  const int64_t now = steady_ns();
+  if (wire_ && !wire_->empty()) deadline_ns = std::min(deadline_ns, now + wire_->ns_a_frame());
+  const int64_t left = std::max<int64_t>(0, deadline_ns - now);
   const timespec timeout{.tv_sec = left / 1'000'000'000, .tv_nsec = left % 1'000'000'000};
-  if (ppoll(watched_.data(), watched_.size(), &timeout, nullptr) <= 0) return;
+  const int ready = ppoll(watched_.data(), watched_.size(), &timeout, nullptr);
+  if (ready < 0 || (ready == 0 && !wire_)) return;
   for (size_t i = 1; i < watched_.size(); ++i)
     if (watched_[i].revents & ~POLLOUT) read_from(*members_[i - 1]);
+  release(steady_ns());
   for (const auto& member : members_) write_to(*member);
   remove_gone();
   if (watched_[0].revents & POLLIN) accept_members();
@@ -96,23 +103,32 @@ void UnixBusHub::read_from(Member& member) {
     } else {
       FrameRecord record;
       std::copy_n(packet.begin(), kFrameRecordBytes, record.begin());
-      pass_on(member, record);
+      take(member.socket, record);
     }
   }
 }
 
-void UnixBusHub::pass_on(const Member& from, const FrameRecord& record) {
+void UnixBusHub::take(int from, const FrameRecord& record) {
+  if (!wire_) return pass_on(from, record);
+  const uint32_t id = uint32_t{record[2]} << 8 | record[3];  // error frames come first
+  if (!wire_->put(id, from, record)) ++counters_.lost;
+}
+
+void UnixBusHub::release(int64_t now_ns) {
+  if (!wire_) return;
+  while (const auto next = wire_->take(now_ns)) pass_on(next->from, next->record);
+}
+
+void UnixBusHub::pass_on(int from, const FrameRecord& record) {
   ++counters_.passed_on;
   for (const auto& member : members_) {
-    if (member.get() == &from || member->gone) continue;
+    if (member->socket == from || member->gone) continue;
     if (member->waiting.size() >= options_.max_waiting) write_to(*member);
-    if (member->waiting.size() < options_.max_waiting) {
-      member->waiting.push_back(record);
-    } else if (options_.loses_when_full) {
-      ++counters_.lost;
-    } else {
+    if (member->waiting.size() >= options_.max_waiting) {
       member->gone = true;
       ++counters_.slow_cut_off;
+    } else {
+      member->waiting.push_back(record);
     }
   }
 }

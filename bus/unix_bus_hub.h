@@ -5,8 +5,10 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "bus/arbitration.h"
 #include "bus/frame_record.h"
 
 namespace edgepose {
@@ -15,20 +17,20 @@ struct UnixBusHubOptions {
   size_t max_members = 16;
   /// Frames that wait for one member; one that lets more pile up (a second of a busy bus) is cut off.
   size_t max_waiting = 4096;
-  /// Instead of being cut off such a member loses what comes next, as a CAN controller does whose buffer is
-  /// full: with a short queue a flooded bus starves its members, as a wire would, and delays nothing.
-  bool loses_when_full = false;
+  /// [frames/s] of the wire, the most urgent first; 8000 are a bus of 1 Mbit/s. 0: no limit, in the order
+  /// that they come.
+  double rate = 0;
 };
 
 struct UnixBusHubCounters {
   uint64_t passed_on = 0;      ///< frames that came in
-  uint64_t lost = 0;           ///< frames that a member had no room for
+  uint64_t lost = 0;           ///< frames that the wire had no time for
   uint64_t slow_cut_off = 0;   ///< members that did not take their frames
   uint64_t wrong_cut_off = 0;  ///< members that sent what is no frame
   uint64_t turned_away = 0;    ///< connections beyond max_members
 };
 
-/// The wire of a UnixBus: every frame of a member goes to all other members, in the order it came. One thread
+/// The wire of a UnixBus: every frame of a member goes to all other members. One thread
 /// calls serve(); none of it throws.
 class UnixBusHub {
  public:
@@ -54,7 +56,9 @@ class UnixBusHub {
   };
   void accept_members();
   void read_from(Member& member);
-  void pass_on(const Member& from, const FrameRecord& record);
+  void take(int from, const FrameRecord& record);
+  void release(int64_t now_ns);
+  void pass_on(int from, const FrameRecord& record);
   void write_to(Member& member);
   void remove_gone();
 
@@ -63,6 +67,7 @@ class UnixBusHub {
   int listener_ = -1;
   std::vector<std::unique_ptr<Member>> members_;
   std::vector<pollfd> watched_;
+  std::optional<Arbitration<int>> wire_;  ///< by the sender's socket
   UnixBusHubCounters counters_;
 };
 

@@ -72,7 +72,8 @@ struct DepthRenderer::Impl {
   Impl& operator=(const Impl&) = delete;
 
   /// A tile of rays at once: the hits of single rays, three times faster.
-  void trace(const Camera& camera, int left, int top, RenderedView& view) const {
+  void trace(const Camera& camera, const Eigen::Isometry3f& scene_T_camera, int left, int top,
+             RenderedView& view) const {
     constexpr int kRays = kTileWidth * kTileHeight;
     static_assert(kRays == 8);
     alignas(32) RTCRayHit8 hit{};
@@ -81,9 +82,15 @@ struct DepthRenderer::Impl {
       const int u = left + i % kTileWidth, v = top + i / kTileWidth;
       valid[i] = u < view.depth.width && v < view.depth.height ? -1 : 0;
       // With z = 1 in the direction, the ray's parameter is the depth itself.
-      hit.ray.dir_x[i] = static_cast<float>((u - camera.cx) / camera.fx);
-      hit.ray.dir_y[i] = static_cast<float>((v - camera.cy) / camera.fy);
-      hit.ray.dir_z[i] = 1;
+      const Eigen::Vector3f direction =
+          scene_T_camera.linear() * Eigen::Vector3f(static_cast<float>((u - camera.cx) / camera.fx),
+                                                    static_cast<float>((v - camera.cy) / camera.fy), 1);
+      hit.ray.org_x[i] = scene_T_camera.translation().x();
+      hit.ray.org_y[i] = scene_T_camera.translation().y();
+      hit.ray.org_z[i] = scene_T_camera.translation().z();
+      hit.ray.dir_x[i] = direction.x();
+      hit.ray.dir_y[i] = direction.y();
+      hit.ray.dir_z[i] = direction.z();
       hit.ray.tfar[i] = std::numeric_limits<float>::infinity();
       hit.ray.mask[i] = ~0u;
       hit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
@@ -152,8 +159,12 @@ void DepthRenderer::set_pose(size_t object, const RigidTransform& camera_T_model
   impl_->place(impl_->objects.at(object), camera_T_model);
 }
 
-RenderedView DepthRenderer::render(const Camera& camera, int width, int height, int threads) {
+RenderedView DepthRenderer::render(const Camera& camera, int width, int height, int threads,
+                                   const RigidTransform& scene_T_camera) {
   require_sound(camera, width, height);
+  if (!scene_T_camera.matrix().allFinite())
+    throw std::invalid_argument("pose: expected finite numbers, found NaN or inf");
+  const Eigen::Isometry3f pose = scene_T_camera.cast<float>();
   rtcCommitScene(impl_->scene);
 
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
@@ -164,7 +175,7 @@ RenderedView DepthRenderer::render(const Camera& camera, int width, int height, 
   const auto tile_rows = static_cast<size_t>((height + kTileHeight - 1) / kTileHeight);
   parallel_for(tile_rows, threads, [&](size_t row) {
     const int v = static_cast<int>(row) * kTileHeight;
-    for (int u = 0; u < width; u += kTileWidth) impl_->trace(camera, u, v, view);
+    for (int u = 0; u < width; u += kTileWidth) impl_->trace(camera, pose, u, v, view);
   });
   return view;
 }

@@ -32,8 +32,11 @@ class DepthRenderer {
 
   /// Depth and object index of the nearest surface in each pixel. The result does not depend on `threads`
   /// (0 = all cores); where two objects coincide exactly, either's index may be given.
-  /// Throws std::invalid_argument if the camera is unsound or a side is not in [1, 16384].
-  RenderedView render(const Camera& camera, int width, int height, int threads = 0);
+  /// `scene_T_camera`: where the camera stands among the meshes, whose poses are then scene_T_model; moving
+  /// it is cheaper than moving them. Throws std::invalid_argument if the camera is unsound or a side is not
+  /// in [1, 16384].
+  RenderedView render(const Camera& camera, int width, int height, int threads = 0,
+                      const RigidTransform& scene_T_camera = RigidTransform::Identity());
 
  private:
   struct Impl;

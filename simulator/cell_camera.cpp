@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "arm/kinematics.h"
 #include "common/error.h"
 #include "matcher/option_range.h"
 
@@ -39,18 +38,24 @@ CellCamera::CellCamera(const WorkCell& cell, const Camera& told, const CellCamer
       series_(options.sensor, cell.camera, cell.width, cell.height, options.seed),
       drift_draws_(options.seed, DrawPurpose::kDrift),
       sensor_draws_(options.seed, DrawPurpose::kSensor) {
-  renderer_.add(cell.model);
-  renderer_.add(cell.table);
-  renderer_.add(cell.tool, cell.flange_T_camera.inverse() * cell.flange_T_tool);
+  scene_.add(cell.model);
+  scene_.add(cell.table, cell.base_T_model.inverse() * cell.base_T_table);
+  DepthRenderer tool;
+  tool.add(cell.tool, cell.flange_T_camera.inverse() * cell.flange_T_tool);
+  tool_ = tool.render(cell.camera, cell.width, cell.height, options.threads);
   drift_ = options.drift * (2 * drift_draws_.uniform() - 1);
 }
 
 const RenderedView& CellCamera::ideal(const JointVector& joints) {
   if (joints == view_joints_) return view_;  // an arm at rest sees the same
-  const RigidTransform camera_T_base = (base_T_flange(cell_.arm, joints) * cell_.flange_T_camera).inverse();
-  renderer_.set_pose(kModel, camera_T_base * cell_.base_T_model);
-  renderer_.set_pose(kTable, camera_T_base * cell_.base_T_table);
-  view_ = renderer_.render(cell_.camera, cell_.width, cell_.height, options_.threads);
+  const RigidTransform model_T_camera = camera_T_model(cell_, joints).inverse();
+  view_ = scene_.render(cell_.camera, cell_.width, cell_.height, options_.threads, model_T_camera);
+  for (size_t i = 0; i < view_.object.size(); ++i) {
+    const float tool = tool_.depth.depth[i], behind = view_.depth.depth[i];
+    if (tool_.object[i] < 0 || (view_.object[i] >= 0 && behind <= tool)) continue;
+    view_.depth.depth[i] = tool;
+    view_.object[i] = kTool;
+  }
   view_joints_ = joints;
   return view_;
 }

@@ -46,7 +46,8 @@ class CellCamera {
   const WorkCell& cell_;
   const Camera told_;
   const CellCameraOptions options_;
-  DepthRenderer renderer_;
+  DepthRenderer scene_;  ///< bone and table, in the frame of the bone
+  RenderedView tool_;    ///< the drill, which the camera always sees alike
   const SensorSeries series_;
   RandomDraws drift_draws_, sensor_draws_;
   double drift_ = 0;

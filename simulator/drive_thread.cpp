@@ -50,6 +50,7 @@ DriveThread::DriveThread(SimulatedBus& bus, const SimulatedArmOptions& options, 
     : bus_(bus), log_(log), port_(std::make_unique<Port>(bus.name())) {
   const int64_t now = steady_ns();
   arm_ = std::make_unique<SimulatedArm>(*port_, options, now);
+  arm_->step(now);  // they have booted when this returns: who joins then is answered
   truth_ = truth_of(*arm_, now);
   thread_ = std::thread([this] { run(); });
 }

@@ -7,6 +7,7 @@
 #include "edgepose_lcm/drill_targets_t.hpp"
 #include "edgepose_lcm/pose_estimates_t.hpp"
 #include "files/drill_plan.h"
+#include "matcher/types.h"
 #include "messaging/authentication.h"
 #include "simulator/random_draws.h"
 

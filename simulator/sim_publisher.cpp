@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "bus/steady_clock.h"
+#include "common/error.h"
 #include "daemon/clock.h"
 
 namespace edgepose {

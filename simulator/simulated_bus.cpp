@@ -21,8 +21,7 @@ namespace {
 
 constexpr int64_t kMillisecond = 1'000'000;
 constexpr const char* kUnix = "unix:";
-/// What a bus of 1 Mbit/s carries in some 25 ms: beyond it frames are lost, not late.
-constexpr size_t kMaxWaitingFrames = 256;
+constexpr double kFramesASecond = 8000;  // 1 Mbit/s, frames of 8 bytes
 
 /// Sends one record of 16 bytes on a socket that is closed afterwards.
 void send_record(int socket, const sockaddr* address, socklen_t size, bool connects,
@@ -40,8 +39,9 @@ void send_record(int socket, const sockaddr* address, socklen_t size, bool conne
 
 SimulatedBus::SimulatedBus(std::string name) : name_(std::move(name)) {
   if (!name_.starts_with(kUnix)) return;
-  hub_ = std::make_unique<UnixBusHub>(name_.substr(std::strlen(kUnix)),
-                                      UnixBusHubOptions{16, kMaxWaitingFrames, true});
+  UnixBusHubOptions options;
+  options.rate = kFramesASecond;
+  hub_ = std::make_unique<UnixBusHub>(name_.substr(std::strlen(kUnix)), options);
   server_ = std::thread([this] { serve(); });
 }
 

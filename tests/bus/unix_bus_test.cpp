@@ -218,5 +218,39 @@ TEST(TappedBus, RecordsWhatIsSentAndReceived) {
   EXPECT_EQ(reader.next().kind, Kind::kNothing);
 }
 
+TEST(Arbitration, TheMostUrgentGoesFirstAndTheRestWaits) {
+  Arbitration<int> wire(1000, 2, 3);
+  for (const uint32_t id : {0x300u, 0x200u, 0x100u}) EXPECT_TRUE(wire.put(id, static_cast<int>(id), {}));
+  EXPECT_FALSE(wire.put(0x001, 1, {})) << "the least urgent is lost";
+  EXPECT_EQ(wire.take(0)->from, 0x001);
+  EXPECT_EQ(wire.take(0)->from, 0x100);
+  EXPECT_FALSE(wire.take(0)) << "no time on the wire";
+  EXPECT_EQ(wire.take(1'000'000)->from, 0x200);
+  EXPECT_FALSE(wire.take(9'000'000)) << "0x300 was lost";
+}
+
+TEST(UnixBusHub, AFloodOfUrgentFramesStarvesTheOthers) {
+  const TemporaryFolder folder;
+  UnixBusHubOptions options;
+  options.rate = 8000;
+  UnixBusHub hub(folder / "bus", options);
+  UnixBus babbler(folder / "bus"), sender(folder / "bus"), receiver(folder / "bus");
+  hub.serve(steady_ns() + 10'000'000);
+  CanFrame urgent{.id = 1, .size = 8, .data = {}, .time_ns = 0},
+      other{.id = 0x201, .size = 8, .data = {}, .time_ns = 0};
+  int others = 0, all = 0;
+  for (const int64_t end = steady_ns() + 300'000'000; steady_ns() < end;) {
+    for (int i = 0; i < 50; ++i) babbler.send(urgent);
+    sender.send(other);
+    hub.serve(0);
+    for (Received got; (got = receiver.receive(0)).kind == Received::Kind::kFrame; ++all)
+      others += got.frame.id == 0x201;
+  }
+  EXPECT_GT(all, 500);
+  EXPECT_LT(all, 300 * 8 + 32 + 100);
+  EXPECT_LE(others, 32) << "only those of the first burst";
+  EXPECT_GT(hub.counters().lost, 0u);
+}
+
 }  // namespace
 }  // namespace edgepose

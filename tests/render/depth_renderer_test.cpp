@@ -36,6 +36,26 @@ TEST(DepthRenderer, TiltedPlaneMatchesTheRayEquation) {
   }
 }
 
+TEST(DepthRenderer, MovingTheCameraIsMovingTheMeshesTheOtherWay) {
+  RigidTransform scene_T_camera = shapes::at(0.1, -0.05, -0.3);
+  scene_T_camera.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0.3).normalized()));
+  const RigidTransform scene_T_model = shapes::at(0.05, 0.02, 0.7);
+  DepthRenderer still, moved;
+  still.add(shapes::sphere(0.1f, 100), scene_T_model);
+  moved.add(shapes::sphere(0.1f, 100), scene_T_camera.inverse() * scene_T_model);
+  const RenderedView a = still.render(kRenderCamera, kRenderWidth, kRenderHeight, 0, scene_T_camera);
+  const RenderedView b = moved.render(kRenderCamera, kRenderWidth, kRenderHeight);
+  int seen = 0, outline = 0;
+  for (size_t i = 0; i < a.object.size(); ++i) {
+    if (a.object[i] != b.object[i]) ++outline;
+    if (a.object[i] < 0 || b.object[i] < 0) continue;
+    ++seen;
+    ASSERT_NEAR(a.depth.depth[i], b.depth.depth[i], 1e-5);
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_LT(outline, 5);
+}
+
 TEST(DepthRenderer, SphereMatchesTheClosedForm) {
   const double radius = 0.1;
   const Eigen::Vector3d centre(0.05, 0.02, 0.7);

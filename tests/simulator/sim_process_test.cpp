@@ -120,6 +120,7 @@ TEST_F(SimProcess, AMasterMovesItsDrivesAndCommandsProvokeThem) {
   const auto in = [&](MasterPhase phase) { return [&, phase] { return master.state().phase == phase; }; };
   ASSERT_TRUE(master.set_up(steady_ns()));
   ASSERT_TRUE(run(master, points, 0, in(MasterPhase::kReady))) << master.fault_text();
+  ASSERT_TRUE(run(master, points, 0, [&] { return master.state().all_fresh; })) << master.fault_text();
   ASSERT_EQ(master.enable(steady_ns()), EnableResult::kBegun);
   ASSERT_TRUE(run(master, points, 0, in(MasterPhase::kEnabled))) << master.fault_text();
   for (size_t i = 0; i < kAxes; ++i) points[i] = master.state().axes[i].position;
