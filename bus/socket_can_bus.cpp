@@ -50,7 +50,9 @@ int can_interface(int socket, const std::string& name) {
 int64_t steady_time_of(const timespec& stamp) {
   constexpr int64_t kSecond = 1'000'000'000;
   const int64_t now = steady_ns();
-  const int64_t age = now + wall_minus_steady_ns() - (stamp.tv_sec * kSecond + stamp.tv_nsec);
+  timespec wall{};
+  clock_gettime(CLOCK_REALTIME, &wall);
+  const int64_t age = (wall.tv_sec - stamp.tv_sec) * kSecond + wall.tv_nsec - stamp.tv_nsec;
   return age >= 0 && age < kSecond ? now - age : now;
 }
 
@@ -75,17 +77,18 @@ void SocketCanBus::configure(const std::string& interface, const SocketCanOption
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = can_interface(socket_, interface);
-  // This mask the kernel looks up in a table, whatever the number of filters.
-  std::vector<can_filter> filters;
-  for (const uint16_t id : options.ids)
-    filters.push_back({.can_id = id, .can_mask = CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG});
-  const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
-  if (!filters.empty() && setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0)
-    throw InputError::at("bus " + interface, "at most 512 identifiers to filter for",
-                         std::to_string(filters.size()));
-  const can_err_mask_t errors = CAN_ERR_MASK;  // off by default
+  for (const uint16_t id : options.ids) received_ids_.set(id & CAN_SFF_MASK);
+  for (const uint16_t id : options.confirm) confirmed_ids_.set(id & CAN_SFF_MASK);
+  if (options.ids.empty())
+    received_ids_.set();
+  else
+    filter(interface, received_ids_ | confirmed_ids_);  // own frames pass the same filters
+  const can_err_mask_t errors = CAN_ERR_MASK;           // off by default
   if (!set_option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors))
     throw InputError::at("bus " + interface, "error frames", std::strerror(errno));
+  if (confirmed_ids_.any() && !set_option(socket_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1))
+    throw InputError::at("bus " + interface, "own frames confirmed", std::strerror(errno));
+  set_option(socket_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, 1);  // to be counted
   set_option(socket_, SOL_SOCKET, SO_RXQ_OVFL, 1);
   set_option(socket_, SOL_SOCKET, SO_TIMESTAMPING,
              static_cast<int>(SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_SOFTWARE));
@@ -95,7 +98,24 @@ void SocketCanBus::configure(const std::string& interface, const SocketCanOption
     throw InputError::at("bus " + interface, "a CAN interface to bind to", std::strerror(errno));
 }
 
+void SocketCanBus::filter(const std::string& interface, const IdSet& ids) {
+  // This mask the kernel looks up in a table, whatever the number of filters.
+  std::vector<can_filter> filters;
+  for (size_t id = 0; id < ids.size(); ++id)
+    if (ids[id])
+      filters.push_back(
+          {.can_id = static_cast<canid_t>(id), .can_mask = CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG});
+  const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
+  if (setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0)
+    throw InputError::at("bus " + interface, "at most 512 identifiers to filter for",
+                         std::to_string(filters.size()));
+}
+
 SendResult SocketCanBus::send(const CanFrame& frame) {
+  if (is_off_) {
+    ++counters_.not_sent;
+    return SendResult::kDown;
+  }
   can_frame wire{};
   wire.can_id = frame.id & CAN_SFF_MASK;
   wire.can_dlc = std::min<uint8_t>(frame.size, CAN_MAX_DLEN);
@@ -105,6 +125,7 @@ SendResult SocketCanBus::send(const CanFrame& frame) {
   while (written < 0 && errno == EINTR);
   if (written == static_cast<ssize_t>(sizeof(wire))) {
     ++counters_.sent;
+    counters_.unconfirmed += confirmed_ids_[wire.can_id];
     return SendResult::kSent;
   }
   if (errno == ENOBUFS || errno == EAGAIN) {
@@ -115,8 +136,17 @@ SendResult SocketCanBus::send(const CanFrame& frame) {
   return SendResult::kDown;
 }
 
+Received SocketCanBus::report(BusEvent event) {
+  ++counters_.events;
+  if (event == BusEvent::kBusOff) is_off_ = true;
+  if (event == BusEvent::kRestarted || event == BusEvent::kDown) is_off_ = false;
+  // What was queued is gone.
+  if (event == BusEvent::kBusOff || event == BusEvent::kDown) counters_.unconfirmed = 0;
+  return {.kind = Received::Kind::kEvent, .event = event, .frame = {}};
+}
+
 Received SocketCanBus::receive(int64_t deadline_ns) {
-  can_frame wire{};
+  canfd_frame wire{};
   iovec place{.iov_base = &wire, .iov_len = sizeof(wire)};
   alignas(cmsghdr) std::array<char, 256> control;
   for (;;) {
@@ -131,11 +161,9 @@ Received SocketCanBus::receive(int64_t deadline_ns) {
       if (!wait_for_input(socket_, deadline_ns)) return {};
       continue;
     }
-    if (got < 0) {  // ENETDOWN: link down; ENODEV: interface deleted. The kernel says it once
-      ++counters_.events;
-      return {.kind = Received::Kind::kEvent, .event = BusEvent::kDown, .frame = {}};
-    }
-    int64_t time = steady_ns();
+    // ENETDOWN: link down; ENODEV: interface deleted. The kernel says it once.
+    if (got < 0) return report(BusEvent::kDown);
+    int64_t time = 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part)) {
       if (part->cmsg_level != SOL_SOCKET) continue;
       if (part->cmsg_type ==
@@ -150,25 +178,30 @@ Received SocketCanBus::receive(int64_t deadline_ns) {
         if (stamp.tv_sec != 0) time = steady_time_of(stamp);
       }
     }
-    Received received;
     if (wire.can_id & CAN_ERR_FLAG) {
-      std::copy_n(wire.data, 8, received.frame.data.begin());
-      received.event = bus_event_of(wire.can_id & CAN_ERR_MASK, received.frame.data);
-      received.kind = Received::Kind::kEvent;
-      ++counters_.events;
-      return received;
+      std::array<uint8_t, 8> data{};
+      std::copy_n(wire.data, data.size(), data.begin());
+      return report(bus_event_of(wire.can_id & CAN_ERR_MASK, data));
     }
-    const bool ours = got == static_cast<ssize_t>(sizeof(wire)) && wire.can_dlc <= CAN_MAX_DLEN &&
-                      !(wire.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG));
+    const bool ours =
+        got == CAN_MTU && wire.len <= CAN_MAX_DLEN && !(wire.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG));
     if (!ours) {
       ++counters_.not_decoded;
       continue;
     }
+    if (message.msg_flags & MSG_CONFIRM) {
+      const bool counts = confirmed_ids_[wire.can_id];
+      counters_.confirmed += counts;
+      counters_.unconfirmed -= counts && counters_.unconfirmed > 0;
+      continue;
+    }
+    if (!received_ids_[wire.can_id]) continue;  // somebody else's, of an identifier that is only confirmed
+    Received received;
     received.kind = Received::Kind::kFrame;
-    received.frame.id = static_cast<uint16_t>(wire.can_id & CAN_SFF_MASK);
-    received.frame.size = wire.can_dlc;
-    std::copy_n(wire.data, wire.can_dlc, received.frame.data.begin());
-    received.frame.time_ns = time;
+    received.frame.id = static_cast<uint16_t>(wire.can_id);
+    received.frame.size = wire.len;
+    std::copy_n(wire.data, wire.len, received.frame.data.begin());
+    received.frame.time_ns = time != 0 ? time : steady_ns();
     ++counters_.received;
     return received;
   }
