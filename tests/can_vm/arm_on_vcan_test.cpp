@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "canopen/cob_id.h"
+#include "tests/can_vm/interface_change.h"
 #include "tests/can_vm/live_arm.h"
 #include "tests/can_vm/vcan.h"
 
@@ -19,7 +20,7 @@ std::filesystem::path trace_file(const std::string& name) {
 class ArmOnVcan : public Vcan {
  protected:
   /// Runs `session`. What fails while the machine kept the guest from its time (a cycle came 3 ms late or
-  /// more) proves nothing: then again, up to five times.
+  /// more) proves nothing: then again, up to twelve times.
   void in_real_time(const std::string& trace, const std::function<void(LiveArm&)>& session) {
     for (int attempt = 1; !testing::Test::IsSkipped(); ++attempt) {
       testing::TestPartResultArray results;
@@ -34,9 +35,10 @@ class ArmOnVcan : public Vcan {
       std::printf("[measured] %s: at most %.1f ms late\n", trace.c_str(), static_cast<double>(late) * 1e-6);
       bool failed = false;
       for (int i = 0; i < results.size(); ++i) failed = failed || results.GetTestPartResult(i).failed();
-      if (failed && late >= 3 * kMillisecond && attempt < 5) {
+      if (failed && late >= 3 * kMillisecond && attempt < 12) {
         std::printf("[repeated] %s: the machine was too busy for real time\n", trace.c_str());
         TearDown();
+        sleep(1);
         SetUp();
         continue;
       }
@@ -111,22 +113,18 @@ TEST_F(ArmOnVcan, BusOffIsLatchedAndNothingIsSentAfterwards) {
 
 TEST_F(ArmOnVcan, AFullQueueForThreeCyclesIsAStop) {
   in_real_time("no_room.pcap", [&](LiveArm& arm) {
-    // From its start on the bus carries a frame in 16 ms and keeps 4.
-    Prepared jam("tc qdisc add dev vcan0 root tbf rate 8kbit burst 32 limit 64");
-    Prepared clear("tc qdisc del dev vcan0 root");
     ASSERT_NO_FATAL_FAILURE(arm.enable());
     arm.run_for(0.3, 0.3);
     ASSERT_EQ(arm.master().state().phase, MasterPhase::kEnabled) << arm.master().fault_text();
-    jam.start();
+    InterfaceChange interface;
+    interface.slow_down(1000, 32, 64);  // a frame in 16 ms; 4 wait
     ASSERT_TRUE(arm.run_until(MasterPhase::kFault, 2, 0.3));
     const int64_t latched = steady_ns();
     EXPECT_EQ(arm.master().fault().kind, FaultKind::kNoRoom) << arm.master().fault_text();
     EXPECT_EQ(arm.master().fault().found, 3u) << arm.master().fault_text();
     EXPECT_GE(arm.master_bus().counters().no_room, 3u);
     ASSERT_TRUE(arm.run_until([&] { return arm.rests(); }, 1, 0.3)) << "the drives stop by themselves";
-    clear.start();
-    arm.run_for(0.3, 0.3);
-    ASSERT_EQ(jam.finish() + clear.finish(), 0);
+    interface.full_speed();
     arm.run_for(0.2, 0.3);
     const auto after = [&](int64_t ns, const auto& is) {
       return count(arm.heard(), [&](const CanFrame& f) { return f.time_ns > latched + ns && is(f); });
@@ -139,10 +137,9 @@ TEST_F(ArmOnVcan, AFullQueueForThreeCyclesIsAStop) {
 
 TEST_F(ArmOnVcan, ALinkThatGoesDownInMotionIsAStop) {
   in_real_time("down.pcap", [&](LiveArm& arm) {
-    Prepared down("ip link set vcan0 down");
     ASSERT_NO_FATAL_FAILURE(arm.enable());
     arm.run_for(0.3, 0.2);
-    down.start();
+    InterfaceChange().down();
     ASSERT_TRUE(arm.run_until(MasterPhase::kFault, 3, 0.2));
     EXPECT_EQ(arm.master().fault().kind, FaultKind::kBusDown) << arm.master().fault_text();
     EXPECT_TRUE(arm.run_until([&] { return arm.rests(); }, 1, 0.2));

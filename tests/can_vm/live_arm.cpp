@@ -71,10 +71,17 @@ bool LiveArm::run_until(const std::function<bool()>& done, double limit, double 
     worst_lateness_ns_ = std::max(worst_lateness_ns_, now - next_ns_);
     for (double& point : set_points_) point += velocity * 0.005;
     master_->cycle(now, set_points_);
-    if (done()) return true;
     next_ns_ += 5 * kMs;
+    if (done()) return true;
   }
   return false;
+}
+
+bool LiveArm::run_until(MasterPhase phase, double limit, double velocity) {
+  const auto there = [&] {
+    return master_->state().phase == phase || master_->state().phase == MasterPhase::kFault;
+  };
+  return run_until(there, limit, velocity) && master_->state().phase == phase;
 }
 
 void LiveArm::enable() {

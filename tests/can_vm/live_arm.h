@@ -24,9 +24,8 @@ class LiveArm {
   /// Cycles of 5 ms until `done` says so, at most `limit` [s]; `velocity` [rad/s] moves the set points of all
   /// axes. True if it was done.
   bool run_until(const std::function<bool()>& done, double limit, double velocity = 0);
-  bool run_until(MasterPhase phase, double limit, double velocity = 0) {
-    return run_until([&] { return master().state().phase == phase; }, limit, velocity);
-  }
+  /// Until the master is in `phase`, or in fault.
+  bool run_until(MasterPhase phase, double limit, double velocity = 0);
   void run_for(double seconds, double velocity = 0) {
     run_until([] { return false; }, seconds, velocity);
   }

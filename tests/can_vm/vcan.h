@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -25,27 +24,6 @@ inline constexpr int64_t kMillisecond = 1'000'000;
 inline bool run(const std::string& command) {
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
 }
-
-/// A command that is at hand: to fork a program with threads takes the guest too long to go on in time.
-class Prepared {
- public:
-  explicit Prepared(const std::string& command)
-      : shell_(popen(("read go && " + command + " >/dev/null 2>&1").c_str(), "w")) {}
-  Prepared(const Prepared&) = delete;
-  Prepared& operator=(const Prepared&) = delete;
-  ~Prepared() { finish(); }
-  /// Does not wait for its end.
-  void start() const { EXPECT_TRUE(std::fputs("\n", shell_) >= 0 && std::fflush(shell_) == 0); }
-  /// Its exit code.
-  int finish() {
-    const int code = shell_ ? pclose(shell_) : -1;
-    shell_ = nullptr;
-    return code;
-  }
-
- private:
-  FILE* shell_;
-};
 
 /// What others put on vcan0: frames of any kind, past the code under test.
 class RawCan {
