@@ -135,6 +135,25 @@ TEST_F(ArmOnVcan, AFullQueueForThreeCyclesIsAStop) {
   });
 }
 
+TEST_F(ArmOnVcan, AQueueThatTakesAllButMovesNotIsAStop) {
+  in_real_time("slow.pcap", [&](LiveArm& arm) {
+    ASSERT_NO_FATAL_FAILURE(arm.enable());
+    arm.run_for(0.3, 0.3);
+    ASSERT_EQ(arm.master().state().phase, MasterPhase::kEnabled) << arm.master().fault_text();
+    const uint64_t sent = arm.master_bus().counters().sent;
+    const int64_t slow = steady_ns();
+    InterfaceChange().slow_down(1000, 32, 1 << 16);  // a frame in 16 ms; room for 4096
+    ASSERT_TRUE(arm.run_until(MasterPhase::kFault, 2, 0.3));
+    std::printf("[measured] slow queue: latched after %.1f ms\n",
+                static_cast<double>(steady_ns() - slow) * 1e-6);
+    EXPECT_EQ(arm.master().fault().kind, FaultKind::kNoRoom) << arm.master().fault_text();
+    EXPECT_EQ(arm.master_bus().counters().no_room, 0u) << "known by SYNCs that were not confirmed only";
+    EXPECT_LE(arm.master_bus().counters().sent - sent, 2u * 7 + 10)
+        << "two cycles and heartbeats are stale at most";
+    EXPECT_TRUE(arm.run_until([&] { return arm.rests(); }, 1, 0.3)) << "the drives stop by themselves";
+  });
+}
+
 TEST_F(ArmOnVcan, ALinkThatGoesDownInMotionIsAStop) {
   in_real_time("down.pcap", [&](LiveArm& arm) {
     ASSERT_NO_FATAL_FAILURE(arm.enable());

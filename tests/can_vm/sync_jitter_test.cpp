@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "tests/can_vm/vcan.h"
@@ -82,15 +83,19 @@ TEST_F(SyncJitter, TheProgramKeepsItsPeriodAndTheBroadcastManagerRunsAway) {
   double own = 0, kernel = 0;
   {
     SocketCanBus bus("vcan0", {.ids = {0x7ff}, .receive_buffer_bytes = 1 << 16, .confirm = {}});
+    std::vector<int64_t> at;  // read as they come: the kernel's times are trusted for a second
+    std::thread reader([&] { at = times(listener); });
     const sched_param real_time{.sched_priority = 30}, normal{.sched_priority = 0};
     sched_setscheduler(0, SCHED_FIFO, &real_time);
     int64_t next = steady_ns();
     for (int i = 0; i < kCount; ++i, next += kPeriod) {
       wait_for_input(-1, next);
-      ASSERT_EQ(bus.send(frame(0x080, 0, 0)), SendResult::kSent);
+      EXPECT_EQ(bus.send(frame(0x080, 0, 0)), SendResult::kSent);
     }
     sched_setscheduler(0, SCHED_OTHER, &normal);
-    own = report("the program", times(listener));
+    reader.join();
+    ASSERT_EQ(at.size(), size_t{kCount});
+    own = report("the program", at);
   }
   {
     BroadcastManager manager;
@@ -99,7 +104,7 @@ TEST_F(SyncJitter, TheProgramKeepsItsPeriodAndTheBroadcastManagerRunsAway) {
     EXPECT_EQ(at.size(), size_t{kCount}) << "as many as it was told, then it stops by itself";
     kernel = report("the broadcast manager", at);
   }
-  EXPECT_NEAR(own, kPeriod, 0.01 * kPeriod);
+  EXPECT_NEAR(own, kPeriod, 0.02 * kPeriod);
   // Each period begins where the last one ended, with its delay: no clock is followed.
   EXPECT_GT(kernel, kPeriod);
   std::printf("[measured] in a minute the broadcast manager is %.1f ms behind the program's clock\n",
