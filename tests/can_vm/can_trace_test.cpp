@@ -66,7 +66,8 @@ TEST_F(CanTrace, SyncComesEvery5Milliseconds) {
 TEST_F(CanTrace, EveryNodeHasItsPdosInEveryCycle) {
   const size_t syncs = times_of(0x080).size();
   for (int node = 1; node <= 6; ++node) {
-    EXPECT_EQ(times_of(0x200 + node).size(), syncs) << "set points of " << node;
+    // The trace may end within a cycle.
+    EXPECT_NEAR(static_cast<double>(times_of(0x200 + node).size()), static_cast<double>(syncs), 1) << node;
     EXPECT_NEAR(static_cast<double>(times_of(0x180 + node).size()), static_cast<double>(syncs), 3) << node;
     EXPECT_NEAR(static_cast<double>(times_of(0x280 + node).size()), static_cast<double>(syncs) / 4, 3)
         << node;

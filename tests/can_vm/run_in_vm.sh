@@ -10,7 +10,7 @@
 # what is missing, only if the package is neither installed nor can be fetched (into $EDGEPOSE_CAN_VM_CACHE).
 set -euo pipefail
 
-say() { echo "run_in_vm.sh: $1" >&2; }
+say() { echo "run_in_vm.sh: $*" >&2; }
 out='' limit=120 memory=256
 while getopts o:t:m: option; do
   case "$option" in
@@ -87,18 +87,18 @@ chmod +x "$private/init.sh"
 ram=/dev/shm
 free=$(df --output=avail -m "$ram" 2>/dev/null | tail -n 1)
 [ "${free:-0}" -ge "$memory" ] || ram=$private
-# Its processes are processes here as well: in a namespace, they end with it.
-namespace=(unshare --pid --fork --kill-child)
-[ "$(id -u)" -eq 0 ] || namespace=(unshare --map-root-user --pid --fork --kill-child)
-"${namespace[@]}" true 2>/dev/null || namespace=()
+# Its processes are processes here as well: in a namespace, they end with it. (Who is not root would need one of users
+# too, in which the guest's setuid programs belong to nobody.)
+namespace=(unshare --pid --fork --kill-child) signal=KILL
+"${namespace[@]}" true 2>/dev/null || { namespace=() signal=TERM; } # it ends them itself, if it is asked
 # Each of the guest's system calls goes from process to process and back: three times as fast on one processor. And the
-# guest keeps time, cycles of 5 ms: before other processes, where that is allowed (the kernel leaves them 5 %).
+# guest keeps time, cycles of 5 ms: before other processes, where that is allowed.
 processor=$(sed -n 's/^Cpus_allowed_list:.*[^0-9]\([0-9]*\)$/\1/p' /proc/self/status)
-priority=(taskset -c "$processor" chrt --rr 1)
-"${priority[@]}" true 2>/dev/null || priority=(taskset -c "$processor")
+priority=(taskset -c "$processor" nice -n -20)
+[ "$(id -u)" -eq 0 ] && "${priority[@]}" true 2>/dev/null || priority=(taskset -c "$processor")
 "${priority[@]}" true 2>/dev/null || priority=()
 code=0
-TMPDIR=$ram HOME=$private timeout --foreground -s KILL "$limit" "${namespace[@]}" "${priority[@]}" "$root/usr/bin/linux.uml" "mem=${memory}M" \
+TMPDIR=$ram HOME=$private timeout --foreground --kill-after=5 -s "$signal" "$limit" "${namespace[@]}" "${priority[@]}" "$root/usr/bin/linux.uml" "mem=${memory}M" \
   rootfstype=hostfs root=/dev/root ro "init=$private/init.sh" con=null con0=null,fd:1 quiet loglevel=1 </dev/null || code=$?
 [ ! -s "$private/status" ] || exit "$(<"$private/status")"
 if [ "$code" -eq 124 ] || [ "$code" -eq 137 ]; then
