@@ -27,6 +27,10 @@ struct BusCounters {
   uint64_t lost = 0;         ///< frames that came but for which the system had no room
   uint64_t not_decoded = 0;  ///< extended, remote and FD frames, and what is no frame
   uint64_t events = 0;
+  /// Where asked for (SocketCanOptions::confirm): own frames that were on the wire, as the interface says,
+  /// and those handed over that still wait for it. As of the last receive(); none waits after link down or
+  /// bus-off.
+  uint64_t confirmed = 0, unconfirmed = 0;
 };
 
 /// A CAN bus as its users see it: frames out, frames and events in. Nothing here throws once it is open. A

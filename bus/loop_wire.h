@@ -34,6 +34,8 @@ class LoopWire {
       ++counters_.received;
       return waiting_[at_++];
     }
+    /// As if so many own frames still waited in the interface's queue.
+    void leave_unconfirmed(uint64_t frames) { counters_.unconfirmed = frames; }
     void put(const Received& received) { waiting_.push_back(received); }
 
     SendResult answer = SendResult::kSent;  ///< what send() says; refused frames go nowhere

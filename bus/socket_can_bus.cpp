@@ -1,101 +1,38 @@
 #include "bus/socket_can_bus.h"
 
 #include <linux/can.h>
-#include <linux/can/error.h>
-#include <linux/can/raw.h>
-#include <linux/net_tstamp.h>
-#include <net/if.h>
-#include <net/if_arp.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 
 #include "bus/steady_clock.h"
-#include "common/error.h"
 
 namespace edgepose {
 namespace {
-
-template <class Value>
-bool set_option(int socket, int level, int option, const Value& value) {
-  return setsockopt(socket, level, option, &value, sizeof(value)) == 0;
-}
-
-/// Index of the interface. Throws InputError unless it is a CAN interface that is up.
-int can_interface(int socket, const std::string& name) {
-  ifreq request{};
-  if (name.empty() || name.size() >= IFNAMSIZ)
-    throw InputError::at("bus " + name, "the name of a CAN interface",
-                         std::to_string(name.size()) + " characters");
-  name.copy(request.ifr_name, IFNAMSIZ - 1);
-  if (ioctl(socket, SIOCGIFHWADDR, &request) != 0)
-    throw InputError::at("bus " + name, "a CAN interface", "no interface of this name", "ip link lists them");
-  if (request.ifr_hwaddr.sa_family != ARPHRD_CAN)
-    throw InputError::at("bus " + name, "a CAN interface", "an interface of another kind");
-  if (ioctl(socket, SIOCGIFFLAGS, &request) != 0 || !(request.ifr_flags & IFF_UP))
-    throw InputError::at("bus " + name, "a CAN interface that is up", "one that is down",
-                         "ip link set " + name + " up type can bitrate 1000000");
-  if (ioctl(socket, SIOCGIFINDEX, &request) != 0)
-    throw InputError::at("bus " + name, "a CAN interface", std::strerror(errno));
-  return request.ifr_ifindex;
-}
 
 /// When it was received, on the steady clock: the kernel stamps by the wall clock, which may be set in
 /// between.
 int64_t steady_time_of(const timespec& stamp) {
   constexpr int64_t kSecond = 1'000'000'000;
   const int64_t now = steady_ns();
-  const int64_t age = now + wall_minus_steady_ns() - (stamp.tv_sec * kSecond + stamp.tv_nsec);
+  timespec wall{};
+  clock_gettime(CLOCK_REALTIME, &wall);
+  const int64_t age = (wall.tv_sec - stamp.tv_sec) * kSecond + wall.tv_nsec - stamp.tv_nsec;
   return age >= 0 && age < kSecond ? now - age : now;
 }
 
 }  // namespace
 
-SocketCanBus::SocketCanBus(const std::string& interface, const SocketCanOptions& options)
-    : socket_(socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW)) {
-  if (socket_ < 0)
-    throw InputError::at("bus " + interface, "a CAN socket", std::strerror(errno),
-                         "the kernel needs the modules can and can-raw");
-  try {
-    configure(interface, options);
-  } catch (...) {
-    close(socket_);
-    throw;
-  }
-}
-
-SocketCanBus::~SocketCanBus() { close(socket_); }
-
-void SocketCanBus::configure(const std::string& interface, const SocketCanOptions& options) {
-  sockaddr_can address{};
-  address.can_family = AF_CAN;
-  address.can_ifindex = can_interface(socket_, interface);
-  // This mask the kernel looks up in a table, whatever the number of filters.
-  std::vector<can_filter> filters;
-  for (const uint16_t id : options.ids)
-    filters.push_back({.can_id = id, .can_mask = CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG});
-  const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
-  if (!filters.empty() && setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0)
-    throw InputError::at("bus " + interface, "at most 512 identifiers to filter for",
-                         std::to_string(filters.size()));
-  const can_err_mask_t errors = CAN_ERR_MASK;  // off by default
-  if (!set_option(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors))
-    throw InputError::at("bus " + interface, "error frames", std::strerror(errno));
-  set_option(socket_, SOL_SOCKET, SO_RXQ_OVFL, 1);
-  set_option(socket_, SOL_SOCKET, SO_TIMESTAMPING,
-             static_cast<int>(SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_SOFTWARE));
-  if (!set_option(socket_, SOL_SOCKET, SO_RCVBUFFORCE, options.receive_buffer_bytes))
-    set_option(socket_, SOL_SOCKET, SO_RCVBUF, options.receive_buffer_bytes);
-  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-    throw InputError::at("bus " + interface, "a CAN interface to bind to", std::strerror(errno));
-}
-
 SendResult SocketCanBus::send(const CanFrame& frame) {
+  if (is_off_) {
+    ++counters_.not_sent;
+    return SendResult::kDown;
+  }
   can_frame wire{};
   wire.can_id = frame.id & CAN_SFF_MASK;
   wire.can_dlc = std::min<uint8_t>(frame.size, CAN_MAX_DLEN);
@@ -105,6 +42,7 @@ SendResult SocketCanBus::send(const CanFrame& frame) {
   while (written < 0 && errno == EINTR);
   if (written == static_cast<ssize_t>(sizeof(wire))) {
     ++counters_.sent;
+    counters_.unconfirmed += confirmed_ids_[wire.can_id];
     return SendResult::kSent;
   }
   if (errno == ENOBUFS || errno == EAGAIN) {
@@ -115,8 +53,17 @@ SendResult SocketCanBus::send(const CanFrame& frame) {
   return SendResult::kDown;
 }
 
+Received SocketCanBus::report(BusEvent event) {
+  ++counters_.events;
+  if (event == BusEvent::kBusOff) is_off_ = true;
+  if (event == BusEvent::kRestarted || event == BusEvent::kDown) is_off_ = false;
+  // What was queued is gone.
+  if (event == BusEvent::kBusOff || event == BusEvent::kDown) counters_.unconfirmed = 0;
+  return {.kind = Received::Kind::kEvent, .event = event, .frame = {}};
+}
+
 Received SocketCanBus::receive(int64_t deadline_ns) {
-  can_frame wire{};
+  canfd_frame wire{};
   iovec place{.iov_base = &wire, .iov_len = sizeof(wire)};
   alignas(cmsghdr) std::array<char, 256> control;
   for (;;) {
@@ -131,11 +78,9 @@ Received SocketCanBus::receive(int64_t deadline_ns) {
       if (!wait_for_input(socket_, deadline_ns)) return {};
       continue;
     }
-    if (got < 0) {  // ENETDOWN: link down; ENODEV: interface deleted. The kernel says it once
-      ++counters_.events;
-      return {.kind = Received::Kind::kEvent, .event = BusEvent::kDown, .frame = {}};
-    }
-    int64_t time = steady_ns();
+    // ENETDOWN: link down; ENODEV: interface deleted. The kernel says it once.
+    if (got < 0) return report(BusEvent::kDown);
+    int64_t time = 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part)) {
       if (part->cmsg_level != SOL_SOCKET) continue;
       if (part->cmsg_type ==
@@ -150,25 +95,30 @@ Received SocketCanBus::receive(int64_t deadline_ns) {
         if (stamp.tv_sec != 0) time = steady_time_of(stamp);
       }
     }
-    Received received;
     if (wire.can_id & CAN_ERR_FLAG) {
-      std::copy_n(wire.data, 8, received.frame.data.begin());
-      received.event = bus_event_of(wire.can_id & CAN_ERR_MASK, received.frame.data);
-      received.kind = Received::Kind::kEvent;
-      ++counters_.events;
-      return received;
+      std::array<uint8_t, 8> data{};
+      std::copy_n(wire.data, data.size(), data.begin());
+      return report(bus_event_of(wire.can_id & CAN_ERR_MASK, data));
     }
-    const bool ours = got == static_cast<ssize_t>(sizeof(wire)) && wire.can_dlc <= CAN_MAX_DLEN &&
-                      !(wire.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG));
+    const bool ours =
+        got == CAN_MTU && wire.len <= CAN_MAX_DLEN && !(wire.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG));
     if (!ours) {
       ++counters_.not_decoded;
       continue;
     }
+    if (message.msg_flags & MSG_CONFIRM) {
+      const bool counts = confirmed_ids_[wire.can_id];
+      counters_.confirmed += counts;
+      counters_.unconfirmed -= counts && counters_.unconfirmed > 0;
+      continue;
+    }
+    if (!received_ids_[wire.can_id]) continue;  // somebody else's, of an identifier that is only confirmed
+    Received received;
     received.kind = Received::Kind::kFrame;
-    received.frame.id = static_cast<uint16_t>(wire.can_id & CAN_SFF_MASK);
-    received.frame.size = wire.can_dlc;
-    std::copy_n(wire.data, wire.can_dlc, received.frame.data.begin());
-    received.frame.time_ns = time;
+    received.frame.id = static_cast<uint16_t>(wire.can_id);
+    received.frame.size = wire.len;
+    std::copy_n(wire.data, wire.len, received.frame.data.begin());
+    received.frame.time_ns = time != 0 ? time : steady_ns();
     ++counters_.received;
     return received;
   }

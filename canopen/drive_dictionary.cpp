@@ -106,8 +106,9 @@ void add_drive_profile(ObjectDictionary& objects, const JointScale& scale) {
 SdoAbort check_mapping(const ObjectDictionary& objects, uint16_t mapping, int64_t count) {
   const bool is_written = mapping == object::kRpdoMapping;
   unsigned bits = 0;
-  for (uint8_t i = 1; i <= count; ++i) {
-    const auto mapped = MappedObject::from(static_cast<uint32_t>(objects.value({mapping, i})));
+  for (int64_t i = 1; i <= count; ++i) {
+    const auto mapped =
+        MappedObject::from(static_cast<uint32_t>(objects.value({mapping, static_cast<uint8_t>(i)})));
     const ObjectEntry* entry = objects.find(mapped.id);
     if (!entry || !entry->mappable || mapped.bits != 8 * bytes_of(entry->type)) return SdoAbort::kNotMappable;
     if (is_written && entry->access != ObjectAccess::kReadWrite) return SdoAbort::kNotMappable;

@@ -44,6 +44,8 @@ void MasterOptions::check() const {
          "master_heartbeat_timeout", "more than master_heartbeat, at most 10 s", master_heartbeat_timeout);
   demand(max_missed >= 1 && max_missed <= 20, "max_missed", "1 to 20", max_missed);
   demand(max_no_room >= 1 && max_no_room <= 20, "max_no_room", "1 to 20", max_no_room);
+  demand(max_waiting_syncs >= 1 && max_waiting_syncs <= 20, "max_waiting_syncs", "1 to 20",
+         max_waiting_syncs);
   demand(max_frames_a_cycle >= 64, "max_frames_a_cycle", "at least 64", max_frames_a_cycle);
 }
 

@@ -61,15 +61,18 @@ void Master::produce(int64_t now_ns) {
     next_heartbeat_ns_ = now_ns + static_cast<int64_t>(options_.master_heartbeat * 1e9);
   }
   if (!communicating_) return;
-  for (size_t i = 0; i < targets_.size(); ++i) {
+  const bool has_fault = state_.phase == MasterPhase::kFault;
+  // What is put behind SYNCs that still wait is stale when it is sent.
+  if (bus_.counters().unconfirmed > static_cast<uint64_t>(options_.max_waiting_syncs) && !has_fault)
+    took_frames_ = is_down_ = false;
+  for (size_t i = 0; i < targets_.size() && (took_frames_ || has_fault); ++i) {
     controlwords_[i] = controlword_for(i);
     const TargetPdo target{
         .controlword = controlwords_[i], .mode = kCyclicSynchronousPosition, .position = targets_[i]};
-    const bool sent = put(target_frame(options_.nodes[i], target, now_ns));
-    // Half a set of targets must not take effect; a stop is sent to whom it reaches.
-    if (!sent && state_.phase != MasterPhase::kFault) break;
+    // Half a set of targets must not take effect, and ends here; a stop is sent to whom it reaches.
+    put(target_frame(options_.nodes[i], target, now_ns));
   }
-  if (took_frames_ || state_.phase == MasterPhase::kFault) sync_sent_ = put(sync_frame(now_ns));
+  if (took_frames_ || has_fault) sync_sent_ = put(sync_frame(now_ns));
   counters_.syncs += sync_sent_;
   no_room_ = took_frames_ ? 0 : no_room_ + 1;
   if (no_room_ >= options_.max_no_room)

@@ -11,7 +11,8 @@ struct ObjectId {
   uint16_t index = 0;
   uint8_t sub = 0;
   bool operator==(const ObjectId&) const = default;
-  auto operator<=>(const ObjectId&) const = default;
+  auto operator<=>(const ObjectId&) const =
+      default;  // NOLINT(modernize-use-nullptr): clang-tidy 14's mistake
 };
 
 /// "6041:00".

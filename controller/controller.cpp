@@ -9,6 +9,7 @@
 #include "bus/open_bus.h"
 #include "bus/pcap_writer.h"
 #include "bus/steady_clock.h"
+#include "canopen/cob_id.h"
 #include "common/error.h"
 #include "controller/equipment.h"
 #include "controller/sample_log.h"

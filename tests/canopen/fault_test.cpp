@@ -218,6 +218,22 @@ TEST(Fault, AFullBusTakesNoHalfSetOfTargets) {
   EXPECT_EQ(arm.count(0x080, from), 0u) << "without SYNC none takes effect";
 }
 
+TEST(Fault, NothingIsPutBehindSyncsThatStillWait) {
+  ArmOnWire arm;
+  arm.enable_and_move();
+  arm.master_port.leave_unconfirmed(1);
+  arm.move(0.5, 20);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kEnabled) << "one may: " << arm.master.fault_text();
+  arm.master_port.leave_unconfirmed(2);
+  const size_t from = arm.wire.trace.size();
+  arm.move(0.5, 2);
+  EXPECT_EQ(arm.count(0x201, from) + arm.count(0x080, from), 0u);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kEnabled) << arm.master.fault_text();
+  arm.move(0.5, 1);
+  EXPECT_EQ(arm.master.fault().kind, FaultKind::kNoRoom);
+  EXPECT_EQ(arm.cycles_to_quick_stop(), 1) << "a stop is sent all the same";
+}
+
 TEST(Fault, FloodedBusStopsWithin100Ms) {
   ArmOnWire arm;
   arm.enable_and_move();

@@ -3,37 +3,23 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <sstream>
 
 #include "bus/pcap_writer.h"
 #include "tests/canopen/arm_on_wire.h"
+#include "tests/canopen/tshark.h"
 
 namespace edgepose {
 namespace {
 
 constexpr int64_t kWallMinusSteady = 1'700'000'000'000'000'000;
 
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return text;
-  std::array<char, 4096> block;
-  for (size_t got; (got = fread(block.data(), 1, block.size(), pipe)) > 0;) text.append(block.data(), got);
-  pclose(pipe);
-  return text;
-}
-
 /// A session with an EMCY at its end, as a capture.
 class Trace : public testing::Test {
  protected:
-  using Row = std::map<std::string, std::string>;
+  using Row = Tshark::Row;
   static void SetUpTestSuite() {
-    if (output_of("command -v tshark").empty()) return;
+    if (!Tshark::is_there()) return;
     file_ = testing::TempDir() + "canopen_session_" + std::to_string(getpid()) + ".pcap";
     arm_ = new ArmOnWire;
     arm_->enable_and_move();
@@ -42,64 +28,34 @@ class Trace : public testing::Test {
     PcapWriter writer(file_, kWallMinusSteady);
     for (const CanFrame& frame : arm_->wire.trace) writer.write(frame);
     writer.flush();
-    decode();
+    tshark_ = new Tshark(file_);
+    words_ = tshark_->words("canopen.nmt_ctrl.cd || canopen.em.err_code");
   }
   static void TearDownTestSuite() {
     if (arm_) std::remove(file_.c_str());
     delete arm_;
+    delete tshark_;
+    tshark_ = nullptr;
     arm_ = nullptr;
   }
   void SetUp() override {
     if (!arm_)
       GTEST_SKIP() << "NOT TESTED: there is no tshark to decode the bus trace; apt-get install tshark";
   }
-  /// One line a frame, the fields of kFields between tabs; and all that tshark says of a few kinds of frames.
-  /// Decoded once: it takes a second to start.
-  static void decode() {
-    const std::string read = "tshark -r '" + file_ + "' -d can.subdissector,canopen ";
-    std::string fields;
-    for (const char* field : kFields) fields += std::string(" -e ") + field;
-    std::istringstream lines(output_of(read + "-T fields" + fields + " 2>/dev/null"));
-    for (std::string line; std::getline(lines, line);) {
-      Row row;
-      std::istringstream parts(line);
-      for (const char* field : kFields)
-        if (std::string part; std::getline(parts, part, '\t') && !part.empty()) row[field] = part;
-      rows_.push_back(row);
-    }
-    words_ = output_of(read + "-V -Y 'canopen.nmt_ctrl.cd || canopen.em.err_code' 2>/dev/null");
-  }
-  static int number(const Row& row, const std::string& field) {
-    const auto at = row.find(field);
-    return at == row.end() ? -1 : static_cast<int>(std::strtol(at->second.c_str(), nullptr, 0));
-  }
-  /// Frames of which tshark says all of this; -1 asks for the field only.
-  static size_t count(const std::map<std::string, int>& said) {
-    return static_cast<size_t>(std::count_if(rows_.begin(), rows_.end(), [&](const Row& row) {
-      return std::all_of(said.begin(), said.end(), [&](const auto& one) {
-        const int found = number(row, "canopen." + one.first);
-        return one.second == -1 ? found != -1 : found == one.second;
-      });
-    }));
-  }
+  static int number(const Row& row, const std::string& field) { return Tshark::number(row, field); }
+  static size_t count(const std::map<std::string, int>& said) { return tshark_->count(said); }
   static size_t on_wire(uint16_t id) { return arm_->count(id); }
 
-  static constexpr const char* kFields[] = {
-      "_ws.malformed",       "canopen.cob_id",           "canopen.node_id",
-      "canopen.nmt_ctrl.cd", "canopen.nmt_ctrl.node_id", "canopen.nmt_guard.state",
-      "canopen.sdo.ccs",     "canopen.sdo.scs",          "canopen.sdo.main_idx",
-      "canopen.sdo.sub_idx", "canopen.sdo.abort_code",   "canopen.sdo.data.bytes",
-      "canopen.em.err_code", "canopen.pdo.data.bytes"};
-  static inline std::vector<Row> rows_;
+  static inline Tshark* tshark_ = nullptr;  ///< decoded once
   static inline std::string words_;
   static inline std::string file_;
   static inline ArmOnWire* arm_ = nullptr;
 };
 
 TEST_F(Trace, EveryFrameIsThereAndNoneIsMalformed) {
-  EXPECT_EQ(rows_.size(), arm_->wire.trace.size());
+  EXPECT_EQ(tshark_->rows().size(), arm_->wire.trace.size());
   EXPECT_EQ(count({{"cob_id", -1}}), arm_->wire.trace.size());
-  for (const Row& row : rows_) EXPECT_FALSE(row.contains("_ws.malformed"));
+  for (const Row& row : tshark_->rows()) EXPECT_FALSE(row.contains("_ws.malformed"));
 }
 
 TEST_F(Trace, NmtResetsAndStartsEachNode) {
@@ -113,7 +69,7 @@ TEST_F(Trace, NmtResetsAndStartsEachNode) {
 
 TEST_F(Trace, HeartbeatsSayBootUpThenPreOperationalThenOperational) {
   std::vector<int> states;
-  for (const Row& row : rows_) {
+  for (const Row& row : tshark_->rows()) {
     if (number(row, "canopen.node_id") != 3 || !row.contains("canopen.nmt_guard.state")) continue;
     const int state = number(row, "canopen.nmt_guard.state");
     if (states.empty() || states.back() != state) states.push_back(state);
@@ -127,7 +83,7 @@ TEST_F(Trace, SdoReadsTheIdentityAndAbortsNothing) {
   EXPECT_EQ(count({{"sdo.main_idx", 0x1018}, {"sdo.sub_idx", 1}, {"sdo.scs", 2}}), 6u);
   EXPECT_EQ(count({{"sdo.main_idx", 0x6007}, {"sdo.ccs", 1}}), 6u);
   EXPECT_EQ(count({{"sdo.abort_code", -1}}), 0u);
-  for (const Row& row : rows_)
+  for (const Row& row : tshark_->rows())
     if (number(row, "canopen.sdo.main_idx") == 0x1018 && number(row, "canopen.sdo.sub_idx") == 1 &&
         number(row, "canopen.sdo.scs") == 2) {
       EXPECT_THAT(row.at("canopen.sdo.data.bytes"), testing::StartsWith("d90e0000")) << "the vendor";
@@ -138,12 +94,12 @@ TEST_F(Trace, PdosAndSyncOfEveryCycle) {
   EXPECT_EQ(count({{"cob_id", 0x080}}), on_wire(0x080));
   EXPECT_GT(on_wire(0x080), 60u);
   size_t stops = 0;
-  for (const Row& row : rows_)
+  for (const Row& row : tshark_->rows())
     if (number(row, "canopen.cob_id") == 0x204) stops += row.at("canopen.pdo.data.bytes").starts_with("0200");
   EXPECT_GT(stops, 20u) << "quick stop";
   for (const int id : {0x201, 0x186, 0x283}) {
     size_t with_data = 0;
-    for (const Row& row : rows_)
+    for (const Row& row : tshark_->rows())
       with_data += number(row, "canopen.cob_id") == id && row.contains("canopen.pdo.data.bytes");
     EXPECT_EQ(with_data, on_wire(static_cast<uint16_t>(id)));
   }
