@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bus/steady_clock.h"
+#include "daemon/real_time.h"
 
 namespace edgepose {
 
