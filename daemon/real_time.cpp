@@ -14,6 +14,10 @@ std::string become_real_time(int priority) {
   parameters.sched_priority = priority;
   if (const int fault = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters); fault != 0)
     return std::string("SCHED_FIFO: ") + std::strerror(fault);
+  return "";
+}
+
+std::string lock_memory() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) return std::string("mlockall: ") + std::strerror(errno);
   return "";
 }
