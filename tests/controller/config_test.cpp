@@ -22,7 +22,8 @@ TEST(ControllerConfig, TheSampleHoldsEveryKeyWithItsDefault) {
   const std::string text = std::regex_replace(servo_sample(), std::regex("(^|\n)# ([a-z_]+ = )"), "$1$2");
   apply_toml(text, "config/edgepose-servo.toml", controller_keys(read));
   const auto expected = controller_keys(defaults), found = controller_keys(read);
-  for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(to_toml(found[i]), to_toml(expected[i])) << expected[i].path;
+  for (size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(to_toml(found[i]), to_toml(expected[i])) << expected[i].path;
   for (const SettingKey& key : expected) {
     const std::string name = key.path.substr(key.path.find('.') + 1);
     EXPECT_THAT(servo_sample(), testing::HasSubstr("\n# " + name + " = ")) << key.path;
@@ -50,8 +51,10 @@ TEST(ControllerConfig, NamesWhatIsWrong) {
   };
   EXPECT_EQ(fault_of(""), "");
   EXPECT_THAT(fault_of("[motion]\njerk = -1.0"), testing::HasSubstr("jerk"));
-  EXPECT_THAT(fault_of("[controller]\nrt_priority = 100"), testing::HasSubstr("rt_priority: expected 0 to 99"));
-  EXPECT_THAT(fault_of("[drives]\ncounts_per_turn = 1.0"), testing::HasSubstr("drives.scale.counts_per_turn"));
+  EXPECT_THAT(fault_of("[controller]\nrt_priority = 100"),
+              testing::HasSubstr("rt_priority: expected 0 to 99"));
+  EXPECT_THAT(fault_of("[drives]\ncounts_per_turn = 1.0"),
+              testing::HasSubstr("drives.scale.counts_per_turn"));
   EXPECT_THAT(fault_of("[controller]\nmodel = \"\""), testing::HasSubstr("controller.model"));
   EXPECT_THAT(fault_of("[controller]\nbus = 3"), testing::HasSubstr("s.toml:2"));
 }
