@@ -101,6 +101,8 @@ std::string ChildProgram::last_words() const {
   size_t from = text.size();
   for (size_t lines = 0; lines < kLastLines && from != std::string::npos && from > 0; ++lines)
     from = text.rfind('\n', from - 1);
+  const std::string last = text.substr(text.rfind('\n') + 1);
+  if (last.starts_with(name_ + ": ")) return one_line(last);  // why it gave up, in its own words
   text = text.substr(from == std::string::npos ? 0 : from);
   if (text.size() > kLastBytes) text = "..." + text.substr(text.size() - kLastBytes);
   return text.empty() ? "it said nothing" : one_line(text);

@@ -54,6 +54,7 @@ class Demo {
         cell_(make_work_cell(options_.cell)),
         told_(draw_told(cell_, options_.noise ? ToldNoise{} : ToldNoise::none(), options_.seed)),
         lcm_url_(private_lcm_url()),
+        recorder_(parse_udpm_url(lcm_url_), cell_.plan.model),
         processes_(options_, folder_, lcm_url_, stop) {
     check_output_folder(options_.output);
     options_.cell.target = cell_.target;
@@ -69,7 +70,6 @@ class Demo {
       });
       write_taught(folder_ / "taught.json", *goal);
     }
-    FrameRecorder recorder(parse_udpm_url(lcm_url_), cell_.plan.model);
     say_("edgepose-sim and edgepose-servo start");
     processes_.start_simulator();
     processes_.start_controller(cell_.plan.model, goal.has_value());
@@ -84,11 +84,11 @@ class Demo {
                 last.at("fault"),
                 goal,
                 read_track(folder_ / "arm.csv", folder_ / "truth.csv", end_ns),
-                recorder.first(),
-                recorder.newest(),
-                recorder.frames(),
-                recorder.answers(),
-                recorder.found(),
+                recorder_.first(),
+                recorder_.newest(),
+                recorder_.frames(),
+                recorder_.answers(),
+                recorder_.found(),
                 last,
                 processes_.versions(),
                 command_};
@@ -116,6 +116,7 @@ class Demo {
     const int64_t last = steady_ns() + static_cast<int64_t>(1e9 * options_.start_seconds);
     for (json status; true; processes_.pause(kLook)) {
       status = processes_.controller("status");
+      if (status.at("state") == "fault") arm_again(status.at("fault"));
       const bool late = steady_ns() > last;
       try {
         if (late || status.at("poses_taken").get<int64_t>() >= kPosesBeforeGo) {
@@ -127,6 +128,15 @@ class Demo {
       }
     }
     say_("on the way to " + cell_.target);
+  }
+
+  /// A machine that is too busy for a moment stops the drives: as long as the arm stands, nothing is lost.
+  void arm_again(const std::string& fault) {
+    if (--more_attempts_ < 0)
+      throw InputError("edgepose-servo: faults before the arm set out, the last: " + fault);
+    say_("fault before it set out: " + one_line(fault) + "; reset, and armed again");
+    processes_.controller("reset");
+    processes_.controller("arm");
   }
 
   /// Until the arm is there, has failed, or its time is over. The controller's last status.
@@ -158,6 +168,8 @@ class Demo {
   const ToldEquipment told_;
   const PrivateFolder folder_;
   const std::string lcm_url_;
+  FrameRecorder recorder_;
+  int more_attempts_ = 3;
   DemoProcesses processes_;  // last: ends before the folder goes
 };
 

@@ -61,8 +61,7 @@ Figure velocities(const RunTrack& track) {
 Figure errors(const RunTrack& track) {
   Plot tip = curves("tip of the drill from the entry of the hole", "mm"),
        axis = curves("axis of the drill from that of the hole", "degrees");
-  Series distance{"true distance", {}, {}}, across{"of it, from the axis of the hole", {}, {}},
-      angle{"", {}, {}};
+  Series distance{"distance", {}, {}}, across{"of it, across the axis", {}, {}}, angle{"", {}, {}};
   for (const TruthPoint& point : track.truth) {
     for (Series* series : {&distance, &across, &angle}) series->x.push_back(point.time);
     distance.y.push_back(kToMillimetres * point.distance());
@@ -72,41 +71,52 @@ Figure errors(const RunTrack& track) {
   tip.series = {std::move(distance), std::move(across)};
   axis.series = {std::move(angle)};
   tip.log_y = axis.log_y = true;
-  return pair_of("true_errors", "True errors, by the simulator's own record", std::move(tip),
+  return pair_of("true_errors", "True errors, by the record of the simulator", std::move(tip),
                  std::move(axis));
 }
 
-/// The camera and the drill's tip as seen along one axis of the base.
-Plot view(const DemoRun& run, int horizontal) {
+/// The path of what is fixed to the flange, as seen along an axis of the base; it ends at `goal`, if given.
+Plot view(const DemoRun& run, const std::string& what, const RigidTransform& flange_T_what, int horizontal,
+          const std::optional<Eigen::Vector3d>& goal) {
   Plot plot;
-  plot.title = horizontal == 0 ? "seen along y" : "seen along x";
+  plot.title = what + (horizontal == 0 ? ", seen along y" : ", seen along x");
   plot.x_label = std::string(1, "xyz"[horizontal]) + " of the base, mm";
   plot.y_label = "z of the base, mm";
-  plot.y_any = plot.to_scale = true;
-  Series camera{"camera", {}, {}}, tip{"tip of the drill", {}, {}};
-  for (const TruthPoint& point : run.track.truth) {
-    const RigidTransform flange = base_T_flange(run.cell.arm, point.joints);
-    const auto add = [&](Series& series, const Eigen::Vector3d& at) {
-      series.x.push_back(kToMillimetres * at[horizontal]);
-      series.y.push_back(kToMillimetres * at.z());
-    };
-    add(camera, (flange * run.cell.flange_T_camera).translation());
-    add(tip, (flange * run.cell.flange_T_tool).translation());
-  }
-  const Eigen::Vector3d entry = run.cell.base_T_model * run.cell.find_target(run.cell.target).entry;
-  Series starts{"start", {camera.x.front(), tip.x.front()}, {camera.y.front(), tip.y.front()}};
-  Series hole{"hole", {kToMillimetres * entry[horizontal]}, {kToMillimetres * entry.z()}};
-  starts.marks = hole.marks = true;
-  plot.series = {std::move(camera), std::move(tip), std::move(starts), std::move(hole)};
+  plot.to_scale = plot.y_any = true;
+  Series path{"path", {}, {}}, start{"start", {}, {}}, end{goal ? "hole" : "end", {}, {}};
+  const auto add = [&](Series& series, const Eigen::Vector3d& at) {
+    series.x.push_back(kToMillimetres * at[horizontal]);
+    series.y.push_back(kToMillimetres * at.z());
+  };
+  for (const TruthPoint& point : run.track.truth)
+    add(path, (base_T_flange(run.cell.arm, point.joints) * flange_T_what).translation());
+  for (Series* mark : {&start, &end}) mark->marks = true;
+  start.x = {path.x.front()}, start.y = {path.y.front()};
+  end.x = {path.x.back()}, end.y = {path.y.back()};
+  if (goal) end.x.clear(), end.y.clear(), add(end, *goal);
+  plot.series = {std::move(path), std::move(start), std::move(end)};
   return plot;
+}
+
+Figure paths(const DemoRun& run) {
+  const Eigen::Vector3d hole = run.cell.base_T_model * run.cell.find_target(run.cell.target).entry;
+  Figure figure{.file = "camera_path",
+                .title = "True paths of the camera and of the tip of the drill",
+                .panels = {},
+                .columns = 2,
+                .width = 960,
+                .height = 960};
+  for (const int horizontal : {0, 1})
+    figure.panels.push_back(view(run, "camera", run.cell.flange_T_camera, horizontal, std::nullopt));
+  for (const int horizontal : {0, 1})
+    figure.panels.push_back(view(run, "tip of the drill", run.cell.flange_T_tool, horizontal, hole));
+  return figure;
 }
 
 }  // namespace
 
 std::vector<Figure> demo_figures(const DemoRun& run) {
-  Figure path = pair_of("camera_path", "True paths of camera and drill", view(run, 0), view(run, 1));
-  path.columns = 2;
-  return {path, features(run.track), velocities(run.track), errors(run.track)};
+  return {paths(run), features(run.track), velocities(run.track), errors(run.track)};
 }
 
 }  // namespace edgepose

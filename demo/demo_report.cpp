@@ -26,14 +26,13 @@ std::string picture(const DemoRun& run, const std::optional<SeenFrame>& seen, co
   OverlayPose pose;
   pose.mesh = &run.cell.model;
   pose.camera_T_model = seen->camera_T_model;
-  pose.label = run.cell.plan.model + " " + fixed(seen->score, 2);
   pose.targets = {{target.name, target.entry, target.axis, target.depth, target.diameter}};
   OverlayOptions options;
   options.width = kPictureWidth;
   const RgbImage image = draw_overlay(seen->frame.image, seen->frame.intrinsics, {pose}, options);
   files.add(run.options.output / (name + ".png"), encode_png(image));
-  return "![Depth as it was sent and the model where the service found it, at the " + name + "](" + name +
-         ".png)\n\n";
+  return "The frame at the " + name + ", as it was sent, and the model where the service found it, score " +
+         fixed(seen->score, 2) + ":\n\n![The " + name + "](" + name + ".png)\n\n";
 }
 
 std::string plots(const DemoRun& run, FileGroup& files, std::string& warning) {
@@ -99,10 +98,13 @@ std::string report_text(const DemoRun& run, const std::string& pictures, const s
          "arm over "
          "CANopen on a Unix bus.\n\n## Steps\n\nThe true errors are against the entry of the hole, which the "
          "arm first approaches to 40 mm; the controller's own are against where the tool is to be at that "
-         "moment.\n\n" +
-         steps_table(run.track) + "\n## Seen\n\n" + pictures + "## Plots\n\n" + figures +
-         "\n## What the controller was told wrong\n\n" + told_table(run.cell, run.told) +
-         "\n## The goal\n\n" + goal_text(run) + "\n## Counted\n\n" + measured_text(run) +
+         "moment, and end when it has converged.\n\n" +
+         steps_table(run.track) +
+         "\n## Seen\n\nDepth: near warm, far blue, black not measured (most of the drill is nearer than the "
+         "camera measures).\n\n" +
+         pictures + "## Plots\n\n" + figures + "\n## What the controller was told wrong\n\n" +
+         told_table(run.cell, run.told) + "\n## The goal\n\n" + goal_text(run) + "\n## Counted\n\n" +
+         measured_text(run) +
          "\nrecord/ has the controller's cycles (arm.csv), the truth (truth.csv), the bus (bus.pcap, for "
          "Wireshark), the calibrations and the programs' logs.\n";
 }

@@ -22,13 +22,10 @@ void add_step(Table& table, const RunTrack& track, double time) {
              believed(kMillimetres * control.tool_error), believed(kDegrees * control.tool_angle)});
 }
 
-std::string signed_text(double value, int decimals, const std::string& unit) {
-  return (value < 0 ? "" : "+") + fixed(value, decimals) + " " + unit;
-}
+std::string signed_text(double value) { return (value < 0 ? "" : "+") + fixed(value, 2); }
 
-std::string vector_text(const Eigen::Vector3d& v, double factor, int decimals, const std::string& unit) {
-  return signed_text(factor * v.x(), decimals, "") + signed_text(factor * v.y(), decimals, "") +
-         signed_text(factor * v.z(), decimals, unit);
+std::string vector_text(const Eigen::Vector3d& v) {
+  return signed_text(v.x()) + ", " + signed_text(v.y()) + ", " + signed_text(v.z());
 }
 
 }  // namespace
@@ -47,25 +44,26 @@ std::string verdict(const DemoRun& run) {
 std::string steps_table(const RunTrack& track) {
   Table table({"s", "state", "true tip mm", "along mm", "across mm", "axis deg", "goal before entry mm",
                "controller's own mm", "own deg"});
-  for (double time = 0; time < track.end() - 0.1 * kTableStep; time += kTableStep)
+  for (double time = 0; time < track.seen_last() - 0.1 * kTableStep; time += kTableStep)
     add_step(table, track, time);
+  add_step(table, track, track.seen_last());
   add_step(table, track, track.end());
   return table.markdown();
 }
 
 std::string told_table(const WorkCell& cell, const ToldEquipment& told) {
-  const Camera& camera = told.camera;
-  const auto pixels = [](double value) { return signed_text(value, 2, "pixels"); };
-  Table table({"told less true", "translation", "rotation vector"});
-  table.add({"fx, fy", pixels(camera.fx - cell.camera.fx), pixels(camera.fy - cell.camera.fy)});
-  table.add({"cx, cy", pixels(camera.cx - cell.camera.cx), pixels(camera.cy - cell.camera.cy)});
+  const Camera &camera = told.camera, &truth = cell.camera;
+  Table table({"told less true", ""});
+  table.add({"fx, fy, pixels", signed_text(camera.fx - truth.fx) + ", " + signed_text(camera.fy - truth.fy)});
+  table.add({"cx, cy, pixels", signed_text(camera.cx - truth.cx) + ", " + signed_text(camera.cy - truth.cy)});
   const auto add = [&](const std::string& name, const RigidTransform& to, const RigidTransform& from) {
     const Eigen::Vector3d turn = rotation_vector(to.linear()) - rotation_vector(from.linear());
-    table.add({name, vector_text(to.translation() - from.translation(), kMillimetres, 2, "mm"),
-               vector_text(turn, kDegrees, 2, "degrees")});
+    table.add(
+        {name + ": translation, mm", vector_text(kMillimetres * (to.translation() - from.translation()))});
+    table.add({name + ": rotation vector, degrees", vector_text(kDegrees * turn)});
   };
-  add("flange_T_camera (hand-eye)", told.flange_T_camera, cell.flange_T_camera);
-  add("flange_T_tool", told.flange_T_tool, cell.flange_T_tool);
+  add("hand-eye (flange_T_camera)", told.flange_T_camera, cell.flange_T_camera);
+  add("tool (flange_T_tool)", told.flange_T_tool, cell.flange_T_tool);
   return table.markdown();
 }
 

@@ -63,6 +63,12 @@ double TruthPoint::distance() const { return std::hypot(along, across); }
 const ControlPoint& RunTrack::control_at(double time) const { return nearest(control, time); }
 const TruthPoint& RunTrack::truth_at(double time) const { return nearest(truth, time); }
 
+double RunTrack::seen_last() const {
+  const auto found = std::find_if(control.rbegin(), control.rend(),
+                                  [](const ControlPoint& point) { return point.goal_seen; });
+  return found == control.rend() ? end() : found->time;
+}
+
 double RunTrack::converged() const {
   const auto found = std::find_if(control.begin(), control.end(),
                                   [](const ControlPoint& point) { return point.state == "converged"; });

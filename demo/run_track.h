@@ -34,6 +34,8 @@ struct RunTrack {
   const ControlPoint& control_at(double time) const;  ///< the nearest
   const TruthPoint& truth_at(double time) const;
   double end() const { return truth.back().time; }
+  /// [s] when the controller last knew its own error: it stops looking once it has converged.
+  double seen_last() const;
   /// [s] when the controller first said converged; -1: never.
   double converged() const;
 };

@@ -1,6 +1,7 @@
 #include "evaluation/plot_script.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -95,6 +96,26 @@ std::string y_range(const Plot& plot) {
   return plot.y_any ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
 }
 
+/// Both axes as long as the values of the longer one, and a tenth more.
+std::string square_ranges(const Plot& plot) {
+  std::array<double, 2> least{INFINITY, INFINITY}, most{-INFINITY, -INFINITY};
+  const auto extend = [&](size_t axis, const std::vector<double>& values) {
+    for (const double value : values) {
+      least[axis] = std::min(least[axis], value);
+      most[axis] = std::max(most[axis], value);
+    }
+  };
+  for (const Series& series : plot.series) extend(0, series.x), extend(1, series.y);
+  const double half = 0.55 * std::max(most[0] - least[0], most[1] - least[1]);
+  if (!(half > 0 && std::isfinite(half))) return "";
+  const auto range = [&](const char* axis, size_t i) {
+    const double middle = (least[i] + most[i]) / 2;
+    return std::string("set ") + axis + "range [" + number(middle - half) + ":" + number(middle + half) +
+           "]\n";
+  };
+  return range("x", 0) + range("y", 1);
+}
+
 /// Title, axes and range of one plot, in the order in which gnuplot wants them.
 void write_axes(std::ostream& out, const Plot& plot) {
   out << "set title '" << harmless_text(plot.title) << "'\nset xlabel '" << harmless_text(plot.x_label)
@@ -102,7 +123,8 @@ void write_axes(std::ostream& out, const Plot& plot) {
       << "set grid ytics lt 1 lw 1 lc rgb '#d8d8d8'\nset border 3\n"
       << "set tics nomirror\nset key above\n"
       << colours() << y_range(plot) << (plot.log_x ? "set logscale x\n" : "");
-  if (plot.to_scale) out << "set size ratio -1\nset grid xtics lt 1 lw 1 lc rgb '#d8d8d8'\n";
+  if (plot.to_scale)
+    out << square_ranges(plot) << "set size ratio -1\nset grid xtics lt 1 lw 1 lc rgb '#d8d8d8'\n";
 }
 
 }  // namespace
@@ -123,7 +145,7 @@ std::string plot_script(const Figure& figure) {
   const size_t rows = (figure.panels.size() + columns - 1) / columns;
   out << "# gnuplot " << harmless_text(figure.file) << ".gp > " << harmless_text(figure.file) << ".png\n"
       << size_text(figure.width, figure.height) << "set multiplot layout " << rows << "," << columns
-      << " title '" << harmless_text(figure.title) << "'\n";
+      << " title \"" << harmless_text(figure.title) << "\\n\"\n";  // an empty line below
   for (size_t i = 0; i < figure.panels.size(); ++i) {
     out << "unset logscale\nunset format\n";
     write_axes(out, figure.panels[i]);
