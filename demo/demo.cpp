@@ -19,6 +19,7 @@ using nlohmann::json;
 constexpr double kLook = 0.1;      // [s] between looks at the controller
 constexpr double kStep = 2;        // [s] between lines of progress
 constexpr double kStay = 1;        // [s] at the goal, for the last picture
+constexpr size_t kMostFaults = 3;  // after which it goes again
 constexpr int kPosesBeforeGo = 5;  // that the controller must have taken
 
 std::string formatted_step(double time, const json& controller, const json& truth) {
@@ -89,6 +90,7 @@ class Demo {
                 recorder_.frames(),
                 recorder_.answers(),
                 recorder_.found(),
+                faults_,
                 last,
                 processes_.versions(),
                 command_};
@@ -113,6 +115,11 @@ class Demo {
   void set_out() {
     processes_.controller("arm");
     say_("armed; waits for poses of the service");
+    go();
+  }
+
+  /// As soon as the controller has seen the model and obeys.
+  void go() {
     const int64_t last = steady_ns() + static_cast<int64_t>(1e9 * options_.start_seconds);
     for (json status; true; processes_.pause(kLook)) {
       status = processes_.controller("status");
@@ -130,11 +137,13 @@ class Demo {
     say_("on the way to " + cell_.target);
   }
 
-  /// A machine that is too busy for a moment stops the drives: as long as the arm stands, nothing is lost.
+  /// A machine that is too busy for a moment stops the drives, as it must: then the arm is set going again,
+  /// as its operator would. The report tells of each time.
   void arm_again(const std::string& fault) {
-    if (--more_attempts_ < 0)
-      throw InputError("edgepose-servo: faults before the arm set out, the last: " + fault);
-    say_("fault before it set out: " + one_line(fault) + "; reset, and armed again");
+    if (faults_.size() >= kMostFaults)
+      throw InputError("edgepose-servo: fault after fault, the last: " + fault);
+    faults_.push_back(one_line(fault));
+    say_("fault: " + faults_.back() + "; reset, and armed again");
     processes_.controller("reset");
     processes_.controller("arm");
   }
@@ -146,9 +155,14 @@ class Demo {
     json status = processes_.controller("status");
     const auto is_over = [&] {
       const std::string state = status.at("state");
-      return state == "converged" || state == "fault" || state == "stopped" || now() > options_.seconds;
+      return state == "converged" || (state == "fault" && faults_.size() >= kMostFaults) ||
+             state == "stopped" || now() > options_.seconds;
     };
     for (double next = 0; !is_over(); processes_.pause(kLook)) {
+      if (status.at("state") == "fault") {
+        arm_again(status.at("fault"));
+        go();
+      }
       if (now() >= next) {
         say_(formatted_step(now(), status, processes_.simulator("status")));
         next += kStep;
@@ -169,8 +183,8 @@ class Demo {
   const PrivateFolder folder_;
   const std::string lcm_url_;
   FrameRecorder recorder_;
-  int more_attempts_ = 3;
-  DemoProcesses processes_;  // last: ends before the folder goes
+  std::vector<std::string> faults_;  ///< after which the arm was set going again
+  DemoProcesses processes_;          // last: ends before the folder goes
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ struct DemoOptions {
   uint64_t seed = 1;                               ///< of start, noise of what is told, noise of the camera
   bool noise = true;                               ///< what is told is as wrong as in the paper; false: true
   DemoGoal goal = DemoGoal::kTaught;
-  int taught_poses = 30;      ///< of each taught place; 30 take about 15 s on an idle core
+  int taught_poses = 30;      ///< of each taught place; 30 take about 3 s
   double seconds = 120;       ///< [s] the arm has, from go on
   double frame_rate = 10;     ///< [Hz] of depth frames; a higher one costs processor time
   double start_seconds = 60;  ///< [s] each program and each command may take until it answers

@@ -88,6 +88,13 @@ std::string measured_text(const DemoRun& run) {
   return table.markdown();
 }
 
+std::string faults_text(const DemoRun& run) {
+  if (run.faults.empty()) return "";
+  std::string text = "\n## Faults\n\nAfter each the arm was reset, armed and set going again:\n\n";
+  for (const std::string& fault : run.faults) text += "- " + harmless_text(fault) + "\n";
+  return text;
+}
+
 std::string report_text(const DemoRun& run, const std::string& pictures, const std::string& figures) {
   const TruthPoint& end = run.track.truth.back();
   return "# The arm, without hardware\n\n    " + harmless_text(run.command) + "\n\n**" + verdict(run) +
@@ -103,8 +110,8 @@ std::string report_text(const DemoRun& run, const std::string& pictures, const s
          "\n## Seen\n\nDepth: near warm, far blue, black not measured (most of the drill is nearer than the "
          "camera measures).\n\n" +
          pictures + "## Plots\n\n" + figures + "\n## What the controller was told wrong\n\n" +
-         told_table(run.cell, run.told) + "\n## The goal\n\n" + goal_text(run) + "\n## Counted\n\n" +
-         measured_text(run) +
+         told_table(run.cell, run.told) + faults_text(run) + "\n## The goal\n\n" + goal_text(run) +
+         "\n## Counted\n\n" + measured_text(run) +
          "\nrecord/ has the controller's cycles (arm.csv), the truth (truth.csv), the bus (bus.pcap, for "
          "Wireshark), the calibrations and the programs' logs.\n";
 }

@@ -24,6 +24,7 @@ struct DemoRun {
   RunTrack track;
   std::optional<SeenFrame> first, last;
   int64_t frames = 0, answers = 0, found = 0;  ///< heard of the simulator, of the service, with the model
+  std::vector<std::string> faults;             ///< after which the arm was set going again
   nlohmann::json controller;                   ///< its last status
   std::string versions, command;
 

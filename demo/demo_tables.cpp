@@ -36,7 +36,10 @@ std::string verdict(const DemoRun& run) {
                             run.cell.target + " (" + fixed(kMillimetres * end.along, 2) + " along, " +
                             fixed(kMillimetres * end.across, 2) + " across), axis " +
                             fixed(kDegrees * end.angle, 2) + " degrees off, by the simulator's truth";
-  if (run.converged()) return "converged after " + fixed(run.track.converged(), 1) + " s; " + where;
+  const std::string again =
+      run.faults.empty() ? "" : ", set going again after " + std::to_string(run.faults.size()) + " fault(s)";
+  if (run.converged())
+    return "converged after " + fixed(run.track.converged(), 1) + " s" + again + "; " + where;
   return "NOT converged (" + run.state + (run.fault.empty() ? "" : ": " + harmless_text(run.fault)) + "); " +
          where;
 }

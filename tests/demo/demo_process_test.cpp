@@ -126,6 +126,23 @@ TEST_F(DemoProcess, SaysWhichProgramDied) {
   EXPECT_TRUE(all_gone(children));
 }
 
+TEST_F(DemoProcess, GoesAgainAfterAFaultAndTellsOfIt) {
+  Process demo = start({"--goal", "calibrations"});
+  ASSERT_TRUE(eventually([&] { return moves(); }, kMostSeconds)) << log();
+  for (const pid_t child : children_of(demo.pid())) {
+    if (name_of_process(child) != "edgepose-servo") continue;
+    kill(child, SIGSTOP);  // for longer than the drives wait
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    kill(child, SIGCONT);
+  }
+  ASSERT_EQ(demo.wait(kMostSeconds), 0) << log();
+  EXPECT_THAT(log(), HasSubstr("reset, and armed again"));
+  EXPECT_THAT(log(), HasSubstr("set going again after "));
+  EXPECT_THAT(read_text(folder / "out" / "report.md"), HasSubstr("## Faults"));
+  EXPECT_GT(reported("true tip error at the end"), 1.0)
+      << "[mm] the calibrations are wrong: the report must say so";
+}
+
 TEST_F(DemoProcess, RefusesBadInputBeforeAnythingRuns) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--mesh", "bone.ply"}, "found only --mesh"},
