@@ -72,11 +72,18 @@ void note(const VirtualCell& cell, const DrillTarget& target, TrialResult& resul
   result.angles.push_back(result.error.angle);
 }
 
-/// Arms, waits for the first poses, goes. Empty, or why not.
+/// Arms, waits for the first poses, says go until the service agrees, for as long as a trial lasts. Empty, or
+/// why not.
 std::string begin(VirtualCell& cell, const std::string& target, const TrialOptions& options) {
   if (std::string refusal = cell.request({ArmCommand::kArm, {}}); !refusal.empty()) return refusal;
   cell.run(4 * options.frame_period + options.latency);
-  return cell.go(target);
+  std::string refusal = cell.go(target);
+  for (double waited = 0; !refusal.empty() && waited < options.max_steps * options.step;
+       waited += options.frame_period) {
+    cell.run(options.frame_period);
+    refusal = cell.go(target);
+  }
+  return refusal;
 }
 
 }  // namespace

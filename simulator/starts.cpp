@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "matcher/option_range.h"
 #include "simulator/random_draws.h"
+#include "simulator/visibility.h"
 
 namespace edgepose {
 
@@ -38,7 +39,8 @@ std::string StartOptions::check() const {
                        {"max_distance", max_distance, 0, 0.3},
                        {"max_turn", max_turn, 0, 1},
                        {"min_clearance", min_clearance, 0, 0.1},
-                       {"joint_margin", joint_margin, 0, 1}});
+                       {"joint_margin", joint_margin, 0, 1},
+                       {"min_visible", min_visible, 0, 1}});
 }
 
 JointVector draw_start(const WorkCell& cell, const DrillTarget& target, uint64_t seed,
@@ -54,7 +56,8 @@ JointVector draw_start(const WorkCell& cell, const DrillTarget& target, uint64_t
     const auto joints = joints_for(cell.arm, tool * cell.flange_T_tool.inverse(), cell.nominal);
     if (!joints) continue;
     const JointVector room = (*joints - cell.arm.lower).cwiseMin(cell.arm.upper - *joints);
-    if (room.minCoeff() >= options.joint_margin) return *joints;
+    if (room.minCoeff() < options.joint_margin) continue;
+    if (visible_share(cell, *joints) >= options.min_visible) return *joints;
   }
   throw InputError::at("start of target '" + target.name + "'", "a pose that the arm reaches",
                        "none in 1000 draws", "another target, or a plan for this model");

@@ -18,12 +18,14 @@ struct StartOptions {
   double max_turn = 0.34906585;  ///< [rad] of the tool: 20 degrees
   double min_clearance = 0.02;   ///< [m] of the drill from bone and table
   double joint_margin = 0.3;     ///< [rad] kept from the joints' limits
+  double min_visible = 0.5;  ///< 0 to 1: of the bone's surface that faces the camera, the drill hides no more
 
   std::string check() const;
 };
 
 /// A random start for `target`: the tool's pose at the standoff, moved by up to max_distance and turned by up
-/// to max_turn (direction, axis and amount each drawn evenly), drawn again until it keeps the clearance. The
+/// to max_turn (direction, axis and amount each drawn evenly), drawn again until it keeps the clearance and
+/// the camera sees enough of the bone: nobody sends an arm on its way that cannot see where. The
 /// same for the same cell, target and seed. Throws InputError if an option is wrong or no start is found.
 JointVector draw_start(const WorkCell& cell, const DrillTarget& target, uint64_t seed,
                        const StartOptions& options = {});
