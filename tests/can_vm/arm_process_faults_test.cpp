@@ -21,45 +21,56 @@ class ArmProcessFaults : public ArmInGuest {
     now.tv_sec += step;
     ASSERT_EQ(clock_settime(CLOCK_REALTIME, &now), 0);
   }
-};
-
-TEST_F(ArmProcessFaults, ReachesTheHoleWhileTheClockIsSetByAnHour) {
-  Worst along("reaches the hole, the clock set by an hour there and back: tip from the entry, mm");
-  Worst slowest("... slowest joint speed in the second about each step, mrad/s");
-  Worst refused("... poses refused");
-  const auto session = [&] {
-    // In the captures folder: what the controller itself records, from its start to its end.
-    ArmProcesses& arm = start({"--capture", trace_file("arm_session.pcap")});
-    arm.set_out();
-    const Lateness late;
+  /// Sets the clock on the way, and ends the controller when it is there. The tip's distance [mm], the
+  /// slowest that the fastest joint was about the steps [mrad/s], poses refused.
+  static std::vector<double> approach_and_end(ArmProcesses& arm) {
     std::vector<int64_t> steps;
     for (const time_t step : {3600, -7200, 3600}) {
       steps.push_back(steady_ns());
       set_clock(step);
       pause(0.3);
     }
-    EXPECT_EQ(arm.state(), "approaching");
+    EXPECT_EQ(arm.state(), "approaching") << arm.log();
     pause(0.2);
-    const std::vector<TruthLine> truth = arm.read_truth(steps.front());
     double least = 1e9;
-    for (const TruthLine& line : truth)
+    for (const TruthLine& line : arm.read_truth(steps.front()))
       if (line.time_ns < steps.back() + 300 * kMillisecond) least = std::min(least, line.fastest());
     EXPECT_GT(least, 1e-3) << "rad/s: it goes on moving";
-    EXPECT_TRUE(eventually([&] { return arm.state() == "converged"; }, 60)) << arm.log();
-    const double refusals = arm.servo("status")["poses_refused"];
-    EXPECT_LE(refusals, 3) << "one that was under way at each step";
+    eventually([&] { return arm.state() == "converged" || arm.state() == "fault"; }, 60);
+    EXPECT_EQ(arm.state(), "converged") << arm.log();
+    const double refused = arm.servo("status")["poses_refused"];
+    EXPECT_LE(refused, 3) << "one that was under way at each step";
     arm.controller().signal(SIGTERM);
     EXPECT_EQ(arm.controller().wait(10), 0) << arm.log();
-    const std::vector<TruthLine> end = arm.read_truth(steady_ns() - 300 * kMillisecond);
-    EXPECT_FALSE(end.empty());
-    if (end.empty()) return late.worst_ns();
+    pause(0.2);  // the truth is written
+    const std::vector<TruthLine> end = arm.read_truth(steady_ns() - 250 * kMillisecond);
+    if (end.empty()) throw std::runtime_error("no truth at the end");
     const double error = std::hypot(end.back().along, end.back().across);
     EXPECT_LT(error, 0.0003);
     EXPECT_TRUE(is_at_rest(end.back()));
-    along.add(1e3 * error), slowest.add(1e3 * least), refused.add(refusals);
+    return {1e3 * error, 1e3 * least, refused};
+  }
+};
+
+TEST_F(ArmProcessFaults, ReachesTheHoleWhileTheClockIsSetByAnHour) {
+  Worst along("reaches the hole, the clock set by an hour there and back: tip from the entry, mm");
+  Worst refused("... poses refused");
+  std::vector<double> figures;
+  const auto session = [&] {
+    // Captured by the controller itself, from its start to its end.
+    ArmProcesses& arm = start({"--capture", trace_file("arm_session.pcap")});
+    arm.set_out();
+    const Lateness late;
+    figures = approach_and_end(arm);
     return late.worst_ns();
   };
-  in_real_time("session", 5 * kMillisecond, session, [] {});
+  for (int i = process_repetitions(1); i > 0 && !HasFailure(); --i) {
+    in_real_time("session", 5 * kMillisecond, session, [] {});
+    if (HasFailure()) break;
+    along.add(figures[0]), refused.add(figures[2]);
+    std::printf("[measured] the fastest joint was never slower than %.1f mrad/s about the steps\n",
+                figures[1]);
+  }
   arm().start_controller({});
 }
 
