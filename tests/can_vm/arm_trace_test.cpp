@@ -137,7 +137,6 @@ TEST_F(ArmTrace, NothingFollowsBusOff) {
   EXPECT_GT(count(0x200, false), 0u);
   EXPECT_EQ(count(0x200, true), 0u) << "RPDOs";
   EXPECT_EQ(count(0x080, true), 0u) << "SYNC";
-  EXPECT_GT(count(0x700, true), 5u) << "the drives do not know";
 }
 
 }  // namespace
