@@ -29,7 +29,7 @@ struct VelocityProfile {
 
   double duration() const;  ///< [s]
   AxisMotion after(AxisMotion from,
-                  double t) const;  ///< where `from` is after t seconds; then at the target's velocity
+                   double t) const;  ///< where `from` is after t seconds; then at the target's velocity
 };
 
 VelocityProfile velocity_profile(const AxisMotion& from, double target, double max_acceleration,

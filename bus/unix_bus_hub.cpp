@@ -18,8 +18,8 @@ namespace {
 
 /// Frames taken from a member before the others have their turn.
 constexpr int kBatch = 64;
-constexpr size_t kBurst = 32;        // two cycles of six drives
-constexpr size_t kWireFrames = 256;  // that wait for the wire: some 30 ms of it
+constexpr size_t kBurst = 32;         // two cycles of six drives
+constexpr size_t kSenderFrames = 32;  // of one sender that wait for the wire, two cycles as well
 
 int packet_socket() { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
@@ -34,7 +34,7 @@ bool somebody_listens(const UnixAddress& address) {
 
 UnixBusHub::UnixBusHub(const std::filesystem::path& path, const UnixBusHubOptions& options)
     : options_(options), path_(path) {
-  if (options.rate > 0) wire_.emplace(options.rate, kBurst, kWireFrames);
+  if (options.rate > 0) wire_.emplace(options.rate, kBurst, kSenderFrames);
   const UnixAddress address = unix_address(path);
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) {

@@ -57,7 +57,18 @@ void Master::begin_set_up(int64_t now_ns) {
   no_room_ = flooded_ = 0;
   next_heartbeat_ns_ = last_cycle_ns_ = now_ns;
   controlwords_.fill(controlword::kDisableVoltage);
+  drop_old_frames(now_ns);
   for (const auto& one : set_ups_) one->begin(now_ns);
+}
+
+/// What came before the reset does not answer it: a drive that has just been switched on has said boot-up.
+void Master::drop_old_frames(int64_t now_ns) {
+  constexpr int kMost = 1 << 14;
+  for (int i = 0; i < kMost; ++i) {
+    const Received received = bus_.receive(0);
+    if (received.kind == Received::Kind::kNothing) return;
+    if (received.kind == Received::Kind::kEvent) take_event(received.event, now_ns);
+  }
 }
 
 EnableResult Master::enable(int64_t now_ns) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bus/steady_clock.h"
+#include "daemon/real_time.h"
 
 namespace edgepose {
 
@@ -71,6 +72,7 @@ std::string ControlLoop::real_time_fault() const {
 void ControlLoop::run() {
   if (rt_priority_ > 0) {
     std::string fault = become_real_time(rt_priority_);
+    if (fault.empty()) fault = lock_memory();
     const std::scoped_lock lock(mutex_);
     real_time_fault_ = std::move(fault);
   }

@@ -1,12 +1,8 @@
 #include "controller/cycle_clock.h"
 
-#include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
 #include <time.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "bus/steady_clock.h"
 
@@ -42,15 +38,6 @@ int64_t CycleClock::wait(CycleTimes& times) {
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
   return next_ns_;
-}
-
-std::string become_real_time(int priority) {
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  if (const int fault = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters); fault != 0)
-    return std::string("SCHED_FIFO: ") + std::strerror(fault);
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) return std::string("mlockall: ") + std::strerror(errno);
-  return "";
 }
 
 }  // namespace edgepose

@@ -2,7 +2,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <string>
 
 namespace edgepose {
 
@@ -52,9 +51,5 @@ class CycleClock {
   const int64_t period_ns_;
   int64_t next_ns_ = 0;
 };
-
-/// Makes the calling thread one that the system runs before all others, and keeps the program's memory from
-/// being paged out. Empty, or what the system refuses: then the cycle is as late as the machine is busy.
-std::string become_real_time(int priority);
 
 }  // namespace edgepose

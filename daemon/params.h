@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/json_rpc.h"
 #include "common/nearest_word.h"
+#include "daemon/json_rpc.h"
 
 namespace edgepose {
 

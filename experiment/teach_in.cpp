@@ -64,7 +64,7 @@ class Landmarks {
 /// there: whoever teaches then takes another place.
 std::optional<TaughtReference> taught_at(const DrillTarget& place, const WorkCell& cell,
                                          const ExperimentArm& arm, int poses, RandomDraws& touch,
-                                         MatcherFeed& feed, int64_t& utime) {
+                                         MatcherFeed& feed, int64_t& utime, const TeachingNote& note) {
   TaughtReference reference;
   reference.name = place.name;
   reference.model_T_tool = model_T_tool_at(place, 0);
@@ -77,6 +77,7 @@ std::optional<TaughtReference> taught_at(const DrillTarget& place, const WorkCel
     if (looks >= kPatience && 2 * static_cast<int>(reference.camera_T_model.size()) < looks)
       return std::nullopt;
     utime += kFramePeriod;
+    if (note) note(place.name, static_cast<int>(reference.camera_T_model.size()));
     if (const auto pose = feed.pose(*joints, utime)) reference.camera_T_model.push_back(*pose);
   }
   return reference;
@@ -84,8 +85,8 @@ std::optional<TaughtReference> taught_at(const DrillTarget& place, const WorkCel
 
 }  // namespace
 
-RigidTransform taught_camera_T_tool(const WorkCell& cell, const ModelHandle& model, const Camera& told,
-                                    const ExperimentArm& arm, uint64_t seed, int poses) {
+TaughtTool taught_tool(const WorkCell& cell, const ModelHandle& model, const Camera& told,
+                       const ExperimentArm& arm, uint64_t seed, int poses, const TeachingNote& note) {
   RandomDraws touch(seed, DrawPurpose::kTouch);
   Landmarks landmarks(cell, seed);
   CellCameraOptions camera;
@@ -96,7 +97,7 @@ RigidTransform taught_camera_T_tool(const WorkCell& cell, const ModelHandle& mod
   int64_t utime = 1'000'000;
   for (int tries = 0; references.size() < count && tries < kMaxPlaces; ++tries) {
     const DrillTarget place = count == 1 ? cell.find_target(cell.target) : landmarks.draw(references);
-    if (auto taught = taught_at(place, cell, arm, poses, touch, feed, utime))
+    if (auto taught = taught_at(place, cell, arm, poses, touch, feed, utime, note))
       references.push_back(std::move(*taught));
   }
   if (references.size() < count)
@@ -105,7 +106,12 @@ RigidTransform taught_camera_T_tool(const WorkCell& cell, const ModelHandle& mod
   TeachingOptions options;
   options.min_references = static_cast<int>(references.size());
   options.min_poses = poses;
-  return teach(references, options).camera_T_tool;
+  return teach(references, options);
+}
+
+RigidTransform taught_camera_T_tool(const WorkCell& cell, const ModelHandle& model, const Camera& told,
+                                    const ExperimentArm& arm, uint64_t seed, int poses) {
+  return taught_tool(cell, model, told, arm, seed, poses).camera_T_tool;
 }
 
 }  // namespace edgepose

@@ -1,9 +1,11 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "experiment/matcher_feed.h"
 #include "servoing/servo.h"
+#include "servoing/teaching.h"
 #include "simulator/told.h"
 
 namespace edgepose {
@@ -57,8 +59,15 @@ struct TrialResult {
 TrialResult run_trial(const WorkCell& cell, const ModelHandle& model, const ExperimentArm& arm, uint64_t seed,
                       const TrialOptions& options);
 
-/// Where the camera sees the tool, learned with the true tool at `count` places of the model (0: at the
-/// target itself), up to the touch's error. Throws InputError if the model was not found often enough.
+/// Called before each look at a place, with the poses measured there so far. What it throws ends the
+/// teaching.
+using TeachingNote = std::function<void(const std::string& place, int poses)>;
+
+/// Where the camera sees the tool, learned with the true tool at five places of the model (kTaughtOne: at the
+/// target itself), `poses` at each, up to the touch's error. `told`: intrinsics that the frames claim. Throws
+/// InputError if the model was not found often enough.
+TaughtTool taught_tool(const WorkCell& cell, const ModelHandle& model, const Camera& told,
+                       const ExperimentArm& arm, uint64_t seed, int poses, const TeachingNote& note = {});
 RigidTransform taught_camera_T_tool(const WorkCell& cell, const ModelHandle& model, const Camera& told,
                                     const ExperimentArm& arm, uint64_t seed, int poses);
 

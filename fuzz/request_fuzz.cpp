@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/json_rpc.h"
-#include "fuzz/input_check.h"
 #include "daemon/params.h"
+#include "fuzz/input_check.h"
 
 namespace {
 

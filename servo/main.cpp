@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "controller/controller.h"
 #include "servo/arm_commands.h"
+#include "servo/demo_command.h"
 #include "servo/experiment_command.h"
 
 namespace edgepose {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kBadInput = 2;
 constexpr const char* kExamples = R"(Examples:
+  edgepose-servo demo                                    everything without hardware, to a report
   edgepose-servo run --config edgepose-servo.toml        the controller; nothing moves until it is told to
   edgepose-servo arm                                     from another terminal
   edgepose-servo go left_pedicle_screw
@@ -21,7 +23,7 @@ constexpr const char* kExamples = R"(Examples:
   edgepose-servo stop
 
 A software stop is no certified emergency stop.
-Exit code: 0 done, 2 refused or could not start (one line on stderr says why).)";
+Exit code: 0 done, 1 not converged or cut short, 2 refused or could not start (one line on stderr says why).)";
 
 constexpr const char* kRunExamples = R"(Examples:
   edgepose-servo run --config /etc/edgepose/edgepose-servo.toml
@@ -88,8 +90,11 @@ int run(int argc, char** argv) {
   add_run_command(app);
   add_client_commands(app);
   add_experiment_command(app);
+  add_demo_command(app);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RuntimeError& error) {
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     throw InputError(std::string(error.what()) + " (edgepose-servo --help shows the options)");

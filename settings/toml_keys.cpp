@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "common/error.h"
-#include "files/whole_file.h"
 #include "common/nearest_word.h"
+#include "files/whole_file.h"
 
 namespace edgepose {
 namespace {

@@ -7,11 +7,13 @@
 #include "canopen/cob_id.h"
 #include "common/error.h"
 #include "daemon/log.h"
+#include "daemon/real_time.h"
 
 namespace edgepose {
 namespace {
 
 constexpr int64_t kStep = 1'000'000;  // [ns]
+constexpr int kDrivesPriority = 60;   // above the controller's
 
 /// What drives listen to; where the system can filter, nothing else costs them time.
 std::vector<uint16_t> ids_of_drives() {
@@ -76,6 +78,7 @@ void DriveThread::with(const std::function<void(SimulatedArm&)>& work) {
 }
 
 void DriveThread::run() {
+  become_real_time(kDrivesPriority);  // where it may: drives have processors of their own
   int64_t next = steady_ns();
   while (!ending_) {
     next += kStep;

@@ -15,12 +15,14 @@
 #include "bus/steady_clock.h"
 #include "bus/unix_address.h"
 #include "daemon/log.h"
+#include "daemon/real_time.h"
 
 namespace edgepose {
 namespace {
 
 constexpr int64_t kMillisecond = 1'000'000;
 constexpr const char* kUnix = "unix:";
+constexpr int kBusPriority = 61;         // above the drives'
 constexpr double kFramesASecond = 8000;  // 1 Mbit/s, frames of 8 bytes
 
 /// Sends one record of 16 bytes on a socket that is closed afterwards.
@@ -53,6 +55,7 @@ SimulatedBus::~SimulatedBus() {
 }
 
 void SimulatedBus::serve() {
+  become_real_time(kBusPriority);  // where it may: a wire does not wait for programs
   while (!ending_ && up_) {
     hub_->serve(steady_ns() + 20 * kMillisecond);
     members_ = hub_->members();

@@ -17,25 +17,25 @@ forbid() {
 }
 
 # Each layer includes only layers below it.
-forbid common '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'common includes no other folder'
-forbid matcher '(common|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'the matcher includes only matcher/'
-forbid messaging '(files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'messaging stands below these'
-forbid settings '(messaging|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'settings stands below these'
-forbid planning '(messaging|settings|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'planning stands below these'
-forbid reporting '(common|files|messaging|settings|planning|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'reporting knows the matcher only'
-forbid files '(messaging|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'files stands below these'
-forbid render '(messaging|settings|planning|reporting|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'render stands below these'
-forbid evaluation '(bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'evaluation stands below these'
-forbid bus '(arm|servoing|calibration|matcher|messaging|files|settings|planning|reporting|render|evaluation|canopen|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'the bus knows common only'
-forbid canopen '(arm|servoing|calibration|matcher|messaging|files|settings|planning|reporting|render|evaluation|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'CANopen knows common and the bus'
-forbid arm '(messaging|files|settings|planning|reporting|bus|canopen|servoing|calibration|render|evaluation|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'arm stands below these'
-forbid servoing '(messaging|files|settings|planning|reporting|bus|canopen|calibration|render|evaluation|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'servoing stands below these'
-forbid calibration '(messaging|settings|planning|reporting|bus|canopen|render|evaluation|daemon|simulator|controller|experiment|servo|client|server|bench|tests)/' 'calibration stands below these'
-forbid daemon '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|simulator|controller|experiment|servo|client|server|bench|tests)/' 'daemon knows common only'
+forbid common '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'common includes no other folder'
+forbid matcher '(common|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'the matcher includes only matcher/'
+forbid messaging '(files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'messaging stands below these'
+forbid settings '(messaging|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'settings stands below these'
+forbid planning '(messaging|settings|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'planning stands below these'
+forbid reporting '(common|files|messaging|settings|planning|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'reporting knows the matcher only'
+forbid files '(messaging|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'files stands below these'
+forbid render '(messaging|settings|planning|reporting|evaluation|bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'render stands below these'
+forbid evaluation '(bus|canopen|arm|servoing|calibration|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'evaluation stands below these'
+forbid bus '(arm|servoing|calibration|matcher|messaging|files|settings|planning|reporting|render|evaluation|canopen|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'the bus knows common only'
+forbid canopen '(arm|servoing|calibration|matcher|messaging|files|settings|planning|reporting|render|evaluation|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'CANopen knows common and the bus'
+forbid arm '(messaging|files|settings|planning|reporting|bus|canopen|servoing|calibration|render|evaluation|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'arm stands below these'
+forbid servoing '(messaging|files|settings|planning|reporting|bus|canopen|calibration|render|evaluation|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'servoing stands below these'
+forbid calibration '(messaging|settings|planning|reporting|bus|canopen|render|evaluation|daemon|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'calibration stands below these'
+forbid daemon '(matcher|messaging|files|settings|planning|reporting|render|evaluation|bus|canopen|arm|servoing|calibration|simulator|controller|experiment|demo|servo|client|server|bench|tests)/' 'daemon knows common only'
 forbid simulator '(controller|experiment|servoing|client|server|bench|tests)/' 'the simulator knows nothing of whoever controls it'
-forbid controller '(simulator|experiment|servo|client|server|bench|tests)/' 'the controller never includes what simulates the world'
-forbid client '(controller|simulator|experiment|servo|server|bench|tests)/' 'client and server never include each other'
-forbid server '(controller|simulator|experiment|servo|client|bench|tests)/' 'client and server never include each other'
+forbid controller '(simulator|experiment|demo|servo|client|server|bench|tests)/' 'the controller never includes what simulates the world'
+forbid client '(controller|simulator|experiment|demo|servo|server|bench|tests)/' 'client and server never include each other'
+forbid server '(controller|simulator|experiment|demo|servo|client|bench|tests)/' 'client and server never include each other'
 
 # The matcher is pure: besides its own headers, Eigen and the standard library (which has no '.' or '/' in a name).
 outside=$(grep -rnE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include' matcher |
@@ -67,8 +67,8 @@ fi
 # Headers are guarded, and included with their folder.
 while IFS= read -r header; do
   head -n 1 "$header" | grep -q '^#pragma once$' || { echo "$header: does not start with #pragma once"; faults=1; }
-done < <(find common matcher messaging daemon files settings planning reporting bus canopen arm servoing calibration simulator controller experiment servo render evaluation client bench server -name '*.h' 2>/dev/null)
-bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher messaging daemon files settings planning reporting bus canopen arm servoing calibration simulator controller experiment servo server render evaluation client bench 2>/dev/null)
+done < <(find common matcher messaging daemon files settings planning reporting bus canopen arm servoing calibration simulator controller experiment demo servo render evaluation client bench server -name '*.h' 2>/dev/null)
+bare=$(grep -rnE --include='*.h' --include='*.cpp' '^#include "[^/"]*"' common matcher messaging daemon files settings planning reporting bus canopen arm servoing calibration simulator controller experiment demo servo server render evaluation client bench 2>/dev/null)
 if [ -n "$bare" ]; then
   printf '%s\n   include as "folder/file.h"\n' "$bare"
   faults=1

@@ -29,7 +29,7 @@ double ellipsoid(const Vector3d& p, const Vector3d& radii) {
 
 /// Rod from a to b whose radius goes from radius_a to radius_b, flattened along x, y, z by `squash`.
 double rounded_rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double radius_a, double radius_b,
-           const Vector3d& squash) {
+                   const Vector3d& squash) {
   const Vector3d q = (p - a).cwiseQuotient(squash), along = (b - a).cwiseQuotient(squash);
   const double t = std::clamp(q.dot(along) / along.dot(along), 0.0, 1.0);
   return (length(Vector3d(q - t * along)) - (radius_a + t * (radius_b - radius_a))) * squash.minCoeff();

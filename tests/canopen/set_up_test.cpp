@@ -133,5 +133,12 @@ TEST(SetUp, OneFrameLostIsOneTimeoutThatIsNamed) {
             "node 6: expected heartbeat (1017:00) to take 0x28, found no answer after 300 ms");
 }
 
+TEST(SetUp, ABootUpOfBeforeIsNotASecondNode) {
+  ArmOnWire arm;
+  // The drives have been switched on a moment ago: their boot-up frames wait for whoever reads first.
+  for (const auto& drive : arm.drives) drive->step(arm.now);
+  arm.set_up();
+}
+
 }  // namespace
 }  // namespace edgepose

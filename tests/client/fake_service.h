@@ -1,8 +1,8 @@
 #pragma once
 #include <atomic>
 
-#include "messaging/channels.h"
 #include "client/service/clock.h"
+#include "messaging/channels.h"
 #include "messaging/checked_decode.h"
 #include "messaging/transform_message.h"
 #include "tests/client/bus.h"

@@ -80,6 +80,22 @@ TEST_F(PlotTest, NamesFromFilesAreNotRun) {
   EXPECT_FALSE(std::filesystem::exists(trap));
 }
 
+TEST_F(PlotTest, PanelsOfAFigureStandInOnePicture) {
+  if (!gnuplot_available()) GTEST_SKIP() << "no gnuplot";
+  Plot path{.file = "", .title = "path", .x_label = "mm", .y_label = "mm", .y_any = true, .to_scale = true};
+  path.series = {{"path", {0, 10, 30}, {-5, 0, 5}}, {.name = "end", .x = {30}, .y = {5}, .marks = true}};
+  Plot error{.file = "", .title = "error", .x_label = "s", .y_label = "mm", .log_y = true};
+  error.series = {{"", {0, 1, 2}, {100, 1, 0.01}}};
+  FileGroup files;
+  draw(Figure{.file = "both", .title = "Both", .panels = {path, error}, .columns = 2}, folder, files);
+  files.commit();
+  EXPECT_TRUE(content(folder / "both.png").starts_with("\x89PNG"));
+  const std::string script = content(folder / "both.gp");
+  EXPECT_NE(script.find("multiplot layout 1,2"), std::string::npos);
+  // 30 wide, 10 high: both axes 33 long.
+  EXPECT_NE(script.find("set xrange [-1.5:31.5]\nset yrange [-16.5:16.5]"), std::string::npos) << script;
+}
+
 TEST_F(PlotTest, WithoutGnuplotThereIsAWarningAndNoPlot) {
   const char* path = std::getenv("PATH");
   const std::string kept = path ? path : "";

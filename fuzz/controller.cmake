@@ -1,0 +1,1 @@
+edgepose_fuzzer(pose_inbox_fuzz edgepose_controller)
