@@ -184,6 +184,8 @@ void Master::continue_set_up(int64_t now_ns) {
   if (!all_done) return;
   for (AxisMonitor& monitor : monitors_) monitor.begin(now_ns);
   communicating_ = true;
+  // Requests that were put behind them have been answered: a queue that was thrown away took them along.
+  lost_syncs_ = bus_.counters().unconfirmed;
   last_cycle_ns_ = now_ns;
   state_.phase = MasterPhase::kReady;
 }

@@ -95,6 +95,7 @@ class Master {
   void hold();
   void transit(int64_t now_ns);
   uint16_t controlword_for(size_t axis);
+  uint64_t waiting_syncs();
   void produce(int64_t now_ns);
   bool put(const CanFrame& frame);
   void remember(int64_t now_ns);
@@ -116,6 +117,7 @@ class Master {
   bool was_latched_ = false, was_enabled_ = false;  ///< when this cycle began
   bool sync_sent_ = false, took_frames_ = true, is_down_ = false;
   int no_room_ = 0, flooded_ = 0;
+  uint64_t lost_syncs_ = 0;  ///< that were never confirmed, and never will be
   int64_t last_cycle_ns_ = 0, next_heartbeat_ns_ = 0;
   CycleRing ring_;
   MasterCounters counters_;

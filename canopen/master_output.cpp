@@ -1,4 +1,5 @@
 // What the master says on the bus: set points, controlwords, SYNC, heartbeat.
+#include <algorithm>
 #include <cmath>
 
 #include "canopen/cob_id.h"
@@ -52,6 +53,12 @@ uint16_t Master::controlword_for(size_t axis) {
   return controlword::kDisableVoltage;
 }
 
+uint64_t Master::waiting_syncs() {
+  const uint64_t unconfirmed = bus_.counters().unconfirmed;
+  lost_syncs_ = std::min(lost_syncs_, unconfirmed);  // the bus has forgotten them as well
+  return unconfirmed - lost_syncs_;
+}
+
 void Master::produce(int64_t now_ns) {
   sync_sent_ = false;
   if (state_.phase == MasterPhase::kIdle) return;
@@ -63,7 +70,7 @@ void Master::produce(int64_t now_ns) {
   if (!communicating_) return;
   const bool has_fault = state_.phase == MasterPhase::kFault;
   // What is put behind SYNCs that still wait is stale when it is sent.
-  if (bus_.counters().unconfirmed > static_cast<uint64_t>(options_.max_waiting_syncs) && !has_fault)
+  if (waiting_syncs() > static_cast<uint64_t>(options_.max_waiting_syncs) && !has_fault)
     took_frames_ = is_down_ = false;
   for (size_t i = 0; i < targets_.size() && (took_frames_ || has_fault); ++i) {
     controlwords_[i] = controlword_for(i);

@@ -59,7 +59,7 @@ class Controller {
         equipment_(read_equipment(options)),
         poses_(options.model, options.camera, key_),
         loop_(
-            open_bus(options.bus, master_options(options).received_ids()),
+            open_bus(options.bus, master_options(options).received_ids(), {cob_id::kSync}),
             [&](CanBus& bus) {
               return std::make_unique<ArmController>(bus, aubo_i5(), equipment_.told,
                                                      equipment_.camera_T_tool, options.servo,

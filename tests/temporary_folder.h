@@ -8,11 +8,14 @@
 
 namespace edgepose {
 
-/// A folder of its own, removed at the end. In /tmp, since a socket's path must be short.
+/// A folder of its own, removed at the end. In $TMPDIR or /tmp; a socket's path must be short, so a long
+/// $TMPDIR does not count.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = "/tmp/edgepose_XXXXXX";
+    const char* given = std::getenv("TMPDIR");
+    const bool is_short = given != nullptr && *given != 0 && std::string(given).size() <= 40;
+    std::string name = std::string(is_short ? given : "/tmp") + "/edgepose_XXXXXX";
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
     path_ = name;
   }

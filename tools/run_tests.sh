@@ -2,8 +2,8 @@
 # Passes the tests on a bare Debian 12: installs what is missing, then runs every check that a change must pass.
 # Usage: tools/run_tests.sh [--quick | --long]
 #   --quick  release build and its tests only
-#   --long   every layer under every sanitizer and clang-tidy, each file for itself, each fuzzer for a minute, and the
-#            installation on a bare Debian (debootstrap): an hour and a half
+#   --long   every layer under every sanitizer and clang-tidy, each file for itself, each fuzzer for a minute, the
+#            installation on a bare Debian (debootstrap), and the programs' faults 20 times each: two hours
 # Without a switch: format, the address and undefined-behaviour sanitizers on what comes from the network and from the
 # bus, release tests; 15 minutes or less on two cores, installation included.
 set -euo pipefail
@@ -98,3 +98,10 @@ fi
 
 step "release tests"
 ctest --preset release -j 2
+
+if [ "$mode" = --long ]; then
+  step "the programs' faults, 20 times each: over a Unix bus, and on vcan0 in user-mode Linux"
+  export EDGEPOSE_FAULT_REPETITIONS=20
+  build/release/bin/arm_process_test --gtest_brief=1 --gtest_filter='ProcessFaults.*'
+  bash tests/can_vm/can_vm_test.sh build/release/bin build/release/can_vm
+fi

@@ -10,6 +10,7 @@
 
 #include "messaging/authentication.h"
 #include "tests/arm_process/arm_processes.h"
+#include "tests/worst.h"
 
 namespace edgepose::test {
 namespace {
@@ -36,9 +37,6 @@ class ProcessFaults : public testing::Test {
     }
   }
   static void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
-  static void note(const std::string& what, double value) {
-    std::printf("| %s | %.0f |\n", what.c_str(), value);
-  }
 };
 
 TEST_F(ProcessFaults, ReachesTheHole) {
@@ -61,6 +59,7 @@ TEST_F(ProcessFaults, ReachesTheHole) {
 }
 
 TEST_F(ProcessFaults, KilledWhileMoving) {
+  Worst stopped("kill -9 of the controller: drives stop, ms"), rest("... at rest, ms");
   repeat([&](uint64_t seed) {
     ArmProcesses arm(seed);
     arm.set_out();
@@ -72,8 +71,7 @@ TEST_F(ProcessFaults, KilledWhileMoving) {
     const double to_rest = ms_until(truth, killed, at_rest);
     EXPECT_THAT(to_stop, AllOf(Ge(0), Le(100)));
     EXPECT_THAT(to_rest, AllOf(Ge(0), Le(300)));
-    note("kill -9: drives stop, ms", to_stop);
-    note("kill -9: at rest, ms", to_rest);
+    stopped.add(to_stop), rest.add(to_rest);
   });
 }
 
@@ -87,6 +85,7 @@ TEST_F(ProcessFaults, AControllerThatIsStartedAgainCanArm) {
 }
 
 TEST_F(ProcessFaults, HeldFor200Milliseconds) {
+  Worst moved("controller held for 200 ms: urad moved after it went on");
   repeat([&](uint64_t seed) {
     ArmProcesses arm(seed);
     arm.set_out();
@@ -106,10 +105,12 @@ TEST_F(ProcessFaults, HeldFor200Milliseconds) {
     }
     ASSERT_NE(at, nullptr);
     EXPECT_LT(most, 1e-5) << "rad moved after it went on";
+    moved.add(1e6 * most);
   });
 }
 
 TEST_F(ProcessFaults, PosesEnd) {
+  Worst rest("poses end: at rest, ms");
   repeat([&](uint64_t seed) {
     ArmProcesses arm(seed);
     arm.set_out();
@@ -120,7 +121,7 @@ TEST_F(ProcessFaults, PosesEnd) {
     const auto truth = arm.end_and_read_truth();
     const double to_rest = ms_until(truth, silent, at_rest);
     EXPECT_THAT(to_rest, AllOf(Ge(0), Le(1200)));
-    note("poses end: at rest, ms", to_rest);
+    rest.add(to_rest);
   });
 }
 
@@ -146,6 +147,7 @@ TEST_F(ProcessFaults, WithAKeyOnlySignedPosesMoveIt) {
 }
 
 TEST_F(ProcessFaults, TheBusIsFlooded) {
+  Worst stopped("flood of identifier 1: drives stop, ms");
   repeat([&](uint64_t seed) {
     ArmProcesses arm(seed);
     arm.set_out();
@@ -156,7 +158,7 @@ TEST_F(ProcessFaults, TheBusIsFlooded) {
     const auto truth = arm.end_and_read_truth();
     const double to_stop = ms_until(truth, flooded, [](const TruthLine& line) { return line.stops(); });
     EXPECT_THAT(to_stop, AllOf(Ge(0), Le(100)));
-    note("flooded: drives stop, ms", to_stop);
+    stopped.add(to_stop);
   });
 }
 

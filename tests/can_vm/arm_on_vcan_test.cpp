@@ -1,53 +1,30 @@
 // Master and drives over the kernel's CAN in real time: a whole session for tshark, and what goes wrong.
-#include <gtest/gtest-spi.h>
-
 #include <algorithm>
 
 #include "canopen/cob_id.h"
 #include "tests/can_vm/interface_change.h"
 #include "tests/can_vm/live_arm.h"
+#include "tests/can_vm/real_time.h"
 #include "tests/can_vm/vcan.h"
 
 namespace edgepose {
 namespace {
 
-/// Captures stay in the folder that can_vm_test.sh gives, for can_trace_test on the host.
-std::filesystem::path trace_file(const std::string& name) {
-  const char* folder = std::getenv("EDGEPOSE_CAN_TRACES");
-  return (folder ? std::filesystem::path(folder) : std::filesystem::path(testing::TempDir())) / name;
-}
-
 class ArmOnVcan : public Vcan {
  protected:
-  /// Runs `session`. What fails while the machine kept the guest from its time (a cycle came 3 ms late or
-  /// more) proves nothing: then again, up to twelve times.
+  /// A cycle that came 3 ms late or more makes a failure void.
   void in_real_time(const std::string& trace, const std::function<void(LiveArm&)>& session) {
-    for (int attempt = 1; !testing::Test::IsSkipped(); ++attempt) {
-      testing::TestPartResultArray results;
-      int64_t late = 0;
-      {
-        using Reporter = testing::ScopedFakeTestPartResultReporter;
-        Reporter reporter(Reporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
-        LiveArm arm(trace_file(trace));
-        session(arm);
-        late = arm.worst_lateness_ns();
-      }
-      std::printf("[measured] %s: at most %.1f ms late\n", trace.c_str(), static_cast<double>(late) * 1e-6);
-      bool failed = false;
-      for (int i = 0; i < results.size(); ++i) failed = failed || results.GetTestPartResult(i).failed();
-      if (failed && late >= 3 * kMillisecond && attempt < 12) {
-        std::printf("[repeated] %s: the machine was too busy for real time\n", trace.c_str());
-        TearDown();
-        sleep(1);
-        SetUp();
-        continue;
-      }
-      for (int i = 0; i < results.size(); ++i) {
-        const testing::TestPartResult& one = results.GetTestPartResult(i);
-        if (one.failed()) ADD_FAILURE_AT(one.file_name(), one.line_number()) << one.message();
-      }
-      return;
-    }
+    edgepose::in_real_time(
+        trace, 3 * kMillisecond,
+        [&] {
+          LiveArm arm(trace_file(trace));
+          session(arm);
+          return arm.worst_lateness_ns();
+        },
+        [this] {
+          TearDown();
+          SetUp();
+        });
   }
   static size_t count(const std::vector<CanFrame>& frames, const std::function<bool(const CanFrame&)>& is) {
     return static_cast<size_t>(std::count_if(frames.begin(), frames.end(), is));

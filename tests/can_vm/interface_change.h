@@ -46,6 +46,14 @@ class InterfaceChange {
     EXPECT_EQ(ioctl(any, SIOCSIFFLAGS, &request), 0) << std::strerror(errno);
     close(any);
   }
+  void remove() {
+    buffer_ = {};
+    header()->nlmsg_type = RTM_DELLINK;
+    header()->nlmsg_flags = NLM_F_REQUEST | NLM_F_ACK;
+    header()->nlmsg_len = NLMSG_LENGTH(sizeof(ifinfomsg));
+    static_cast<ifinfomsg*>(NLMSG_DATA(header()))->ifi_index = static_cast<int>(if_nametoindex("vcan0"));
+    ask();
+  }
 
  private:
   nlmsghdr* header() { return reinterpret_cast<nlmsghdr*>(buffer_.data()); }

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,12 @@
 namespace edgepose {
 
 inline constexpr int64_t kMillisecond = 1'000'000;
+
+/// Captures stay in the folder that can_vm_test.sh gives, for tshark on the host.
+inline std::filesystem::path trace_file(const std::string& name) {
+  const char* folder = std::getenv("EDGEPOSE_CAN_TRACES");
+  return (folder ? std::filesystem::path(folder) : std::filesystem::path(testing::TempDir())) / name;
+}
 
 /// True if the command's exit code is 0; what it says is not shown.
 inline bool run(const std::string& command) {

@@ -234,6 +234,22 @@ TEST(Fault, NothingIsPutBehindSyncsThatStillWait) {
   EXPECT_EQ(arm.cycles_to_quick_stop(), 1) << "a stop is sent all the same";
 }
 
+TEST(Fault, SyncsThatWereLostAreNotWaitedForAfterReset) {
+  ArmOnWire arm;
+  arm.enable_and_move();
+  arm.master_port.leave_unconfirmed(2);  // thrown away with the queue: they stay so
+  arm.move(0.5, 3);
+  ASSERT_EQ(arm.master.fault().kind, FaultKind::kNoRoom);
+  arm.cycles_of(50);
+  ASSERT_TRUE(arm.master.reset(arm.now));
+  arm.until(MasterPhase::kReady);
+  arm.cycles_of(20);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kReady) << arm.master.fault_text();
+  arm.master_port.leave_unconfirmed(4);  // two more
+  arm.cycles_of(3);
+  EXPECT_EQ(arm.master.fault().kind, FaultKind::kNoRoom) << "new ones count";
+}
+
 TEST(Fault, FloodedBusStopsWithin100Ms) {
   ArmOnWire arm;
   arm.enable_and_move();
