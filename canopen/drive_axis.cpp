@@ -21,7 +21,9 @@ uint8_t register_of(uint16_t code) {
 DriveAxis::DriveAxis(ObjectDictionary& objects, const DriveOptions& options)
     : objects_(objects),
       options_(options),
-      motion_(options.position, options.lag, options.brake_deceleration) {}
+      motion_(options.position, options.lag, options.brake_deceleration) {
+  motion_.set_sag(options.sag);
+}
 
 double DriveAxis::radians(ObjectId id) const {
   return static_cast<double>(objects_.value(id)) / options_.scale.counts_per_radian();

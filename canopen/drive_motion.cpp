@@ -44,7 +44,7 @@ void DriveMotion::advance(double duration) {
     velocity_ = 0;
   } else if (following_) {
     // Exact for a demand that stands still; the steps are short against the lag.
-    const double way = mobility_ * (demand_ - position_) * (1 - std::exp(-duration / lag_));
+    const double way = mobility_ * (demand_ + sag_ - position_) * (1 - std::exp(-duration / lag_));
     position_ += way;
     velocity_ = way / duration;
   } else {

@@ -17,6 +17,8 @@ class DriveMotion {
   void release();
   /// How much of its way the axis makes: 1 as it should, 0 blocked.
   void set_mobility(double share) { mobility_ = share; }
+  /// [rad] the axis rests so far beside its demand.
+  void set_sag(double sag) { sag_ = sag; }
 
   void advance(double duration);
 
@@ -28,7 +30,7 @@ class DriveMotion {
  private:
   double lag_, brake_deceleration_;
   bool following_ = false;
-  double mobility_ = 1;
+  double mobility_ = 1, sag_ = 0;
   double deceleration_;
   double position_, velocity_ = 0;
   double demand_, target_, time_left_ = 0, max_velocity_ = 0;

@@ -19,6 +19,7 @@ struct DriveOptions {
   JointScale scale;
   double position = 0;             ///< [rad] at first
   double lag = 0.004;              ///< [s] time constant with which the axis follows the demanded position
+  double sag = 0;                  ///< [rad] that the axis rests beside its demand: gravity, friction
   double brake_deceleration = 50;  ///< [rad/s^2] of the holding brake, without power
 };
 

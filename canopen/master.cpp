@@ -45,6 +45,7 @@ bool Master::set_up(int64_t now_ns) {
 bool Master::reset(int64_t now_ns) {
   if (state_.phase != MasterPhase::kFault) return false;
   fault_ = {};
+  released_ = false;
   set_up_error_.clear();
   ring_.clear();
   begin_set_up(now_ns);

@@ -58,6 +58,8 @@ class Master {
   bool disable(int64_t now_ns);
   /// A fault of its own kind: quick stop, latched.
   void stop(int64_t now_ns);
+  /// In a fault: power off, where else the drives would hold the axes; to be said when the arm is at rest.
+  void release() { released_ = true; }
   /// Forgets the fault and sets the drives up anew. False unless in kFault.
   bool reset(int64_t now_ns);
   /// The axis knows its position again after its drive has booted.
@@ -113,7 +115,8 @@ class Master {
   PerAxis<DriveState> last_states_{};
   PerAxis<int64_t> since_ns_{};     ///< when each axis' state changed, while enabling or disabling
   PerAxis<int> cycles_in_phase_{};  ///< for fault resets and stops, counted from the phase's beginning
-  bool communicating_ = false;      ///< drives are operational: SYNC runs
+  bool released_ = false;
+  bool communicating_ = false;                      ///< drives are operational: SYNC runs
   bool was_latched_ = false, was_enabled_ = false;  ///< when this cycle began
   bool sync_sent_ = false, took_frames_ = true, is_down_ = false;
   int no_room_ = 0, flooded_ = 0;

@@ -41,6 +41,7 @@ uint16_t Master::controlword_for(size_t axis) {
       return pause ? controlword::kDisableVoltage : word;
     }
     case MasterPhase::kFault: {
+      if (released_) break;
       if (state != DriveState::kOperationEnabled && state != DriveState::kQuickStopActive) break;
       // One that does not obey loses its power: the brake falls.
       const bool obeys =

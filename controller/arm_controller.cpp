@@ -1,5 +1,6 @@
 #include "controller/arm_controller.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -22,10 +23,9 @@ FaultCause cause_of(FaultKind kind) {
   }
 }
 
-ServoOptions with_state_age(ServoOptions options) {
-  options.state_age = options.motion.cycle;
-  return options;
-}
+constexpr double kMoving = 0.01;             // [rad/s]
+constexpr int64_t kRest = 100'000'000;       // [ns] without motion
+constexpr int64_t kBlindRest = 500'000'000;  // [ns] after a fault, where the joints are no longer measured
 
 }  // namespace
 
@@ -43,19 +43,20 @@ MasterOptions master_options_for(const ArmGeometry& arm, const ServoOptions& ser
 ArmController::ArmController(CanBus& bus, const ArmGeometry& arm, const ToldCalibration& told,
                              const RigidTransform& camera_T_tool, const ServoOptions& servo,
                              const MasterOptions& master)
-    : servo_(arm, told, camera_T_tool, with_state_age(servo)),
-      master_(bus, master_options_for(arm, servo, master)) {}
+    : servo_(arm, told, camera_T_tool, servo), master_(bus, master_options_for(arm, servo, master)) {}
 
 const ControlSample& ArmController::cycle(int64_t now_ns, const std::optional<PoseReading>& reading) {
   master_.receive(now_ns);
-  see_joints();
+  see_joints(now_ns);
   take_faults();
   work_on_request(now_ns);
-  sample_.servo = servo_.cycle(1e-9 * static_cast<double>(now_ns), measured(), reading);
+  const double state_age = 1e-9 * static_cast<double>(now_ns - state_ns_);
+  sample_.servo = servo_.cycle(1e-9 * static_cast<double>(now_ns), measured(), reading, state_age);
   take_power_off(now_ns);
   PerAxis<double> set_points{};
   for (int i = 0; i < kJoints; ++i) set_points[static_cast<size_t>(i)] = sample_.servo.command.position[i];
   master_.send(now_ns, set_points);
+  last_sync_ns_ = now_ns;
   take_faults();
 
   sample_.time_ns = now_ns;
@@ -130,14 +131,22 @@ void ArmController::continue_arming(int64_t now_ns) {
     case MasterPhase::kEnabled:
       arming_ = false;
       return answer(servo_.arm(measured()));
+    case MasterPhase::kFault:
+      return answer(master_.fault_text());
     default:
       return;
   }
 }
 
 void ArmController::reset(int64_t now_ns) {
+  // Setting drives up anew would let go of them while they brake.
+  if (master_.state().phase == MasterPhase::kFault && is_moving(now_ns))
+    return answer("reset is refused while the arm comes to rest");
   std::string refusal = servo_.reset();
-  if (refusal.empty()) master_.reset(now_ns);
+  if (refusal.empty()) {
+    drives_fault_told_ = false;
+    master_.reset(now_ns);
+  }
   answer(refusal);
 }
 
@@ -149,6 +158,7 @@ void ArmController::take_faults() {
     return;
   }
   drives_fault_told_ = true;
+  fault_ns_ = sample_.time_ns;
   servo_.fail(cause_of(master_.fault().kind), master_.fault_text(), true);
 }
 
@@ -164,12 +174,24 @@ void ArmController::take_power_off(int64_t now_ns) {
   if (off && edgepose::at_rest(sample_.servo.command)) master_.disable(now_ns);
 }
 
-void ArmController::see_joints() {
+/// As far as it is known: the joints have moved a moment ago, or are not heard of so soon after a fault.
+bool ArmController::is_moving(int64_t now_ns) const {
+  if (now_ns - last_motion_ns_ < kRest) return true;
+  return !master_.state().all_fresh && now_ns - fault_ns_ < kBlindRest;
+}
+
+void ArmController::see_joints(int64_t now_ns) {
   const MasterPhase phase = master_.state().phase;
   if (phase == MasterPhase::kIdle || phase == MasterPhase::kSettingUp)
     joints_known_ = false;
   else if (master_.state().all_fresh)
     joints_known_ = true;
+  if (!joints_known_ || !master_.state().all_fresh) return;
+  const JointVector now = measured();
+  const double cycle = 1e-9 * static_cast<double>(std::max<int64_t>(last_sync_ns_ - state_ns_, 1));
+  if ((now - last_measured_).cwiseAbs().maxCoeff() > kMoving * cycle) last_motion_ns_ = now_ns;
+  last_measured_ = now;
+  state_ns_ = last_sync_ns_;
 }
 
 /// Not a number where it is not known: a pose must never be placed by an arm that was not measured.

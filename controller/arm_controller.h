@@ -50,6 +50,11 @@ class ArmController {
   std::optional<std::string> take_answer();
   /// At once, whatever else goes on: the controlled stop.
   void stop(int64_t now_ns);
+  /// For the end of the program: an arm that has stopped by a fault loses its power, too, once it is at rest.
+  void release() { master_.release(); }
+
+  /// As far as it is known: the joints have moved within the last 0.1 s, or a fault left them unmeasured.
+  bool is_moving(int64_t now_ns) const;
 
   ServoState state() const { return servo_.state(); }
   bool at_rest() const { return edgepose::at_rest(sample_.servo.command); }
@@ -64,7 +69,7 @@ class ArmController {
   void continue_arming(int64_t now_ns);
   void reset(int64_t now_ns);
   void take_faults();
-  void see_joints();
+  void see_joints(int64_t now_ns);
   void take_power_off(int64_t now_ns);
   JointVector measured() const;
 
@@ -74,6 +79,10 @@ class ArmController {
   std::optional<ArmRequest> request_;
   bool arming_ = false;
   bool drives_fault_told_ = false;
+  int64_t fault_ns_ = 0;                     ///< when bus or drives were found wrong
+  int64_t last_motion_ns_ = 0;               ///< when the measured joints last moved
+  int64_t last_sync_ns_ = 0, state_ns_ = 0;  ///< of the last SYNC; of the one that the joints answer
+  JointVector last_measured_ = JointVector::Zero();
   bool joints_known_ = false;  ///< the drives have said where they are since they were set up
   std::optional<std::string> answer_;
 };

@@ -1,5 +1,6 @@
 #include "controller/control_loop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -18,6 +19,23 @@ ControlLoop::ControlLoop(std::unique_ptr<CanBus> bus,
       rt_priority_(rt_priority) {}
 
 ControlLoop::~ControlLoop() { finish(0); }
+
+/// Whether any axis may still have power.
+bool ControlLoop::has_power(const ControlSample& sample) {
+  switch (sample.phase) {
+    case MasterPhase::kIdle:
+    case MasterPhase::kSettingUp:
+    case MasterPhase::kReady:
+      return false;
+    case MasterPhase::kFault:
+      return std::any_of(sample.statusword.begin(), sample.statusword.end(), [](uint16_t word) {
+        const DriveState state = state_of(word);
+        return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive;
+      });
+    default:
+      return true;
+  }
+}
 
 void ControlLoop::start() {
   thread_ = std::thread([this] { run(); });
@@ -42,14 +60,14 @@ std::optional<std::string> ControlLoop::take_answer() {
 void ControlLoop::finish(double seconds) {
   if (!thread_.joinable()) return;
   stop_ = true;
+  const auto pause = [&] { std::this_thread::sleep_for(std::chrono::duration<double>(cycle_)); };
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  const auto has_power = [&] {
-    const MasterPhase phase = newest().phase;
-    return phase == MasterPhase::kEnabling || phase == MasterPhase::kEnabled ||
-           phase == MasterPhase::kDisabling;
-  };
-  while (has_power() && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const auto goes_on = [&] { return std::chrono::steady_clock::now() < end; };
+  for (int i = 0; i < 4 && goes_on(); ++i) pause();  // the stop has been taken
+  while (has_power(newest()) && goes_on()) {
+    releasing_ = newest().phase == MasterPhase::kFault;
+    pause();
+  }
   ending_ = true;
   thread_.join();
 }
@@ -83,6 +101,7 @@ void ControlLoop::run() {
     const int64_t deadline = clock.wait(times_);
     const int64_t now = steady_ns();
     serve_requests(now);
+    if (releasing_ && !controller_->is_moving(now)) controller_->release();
     const ControlSample& sample = controller_->cycle(now, poses_.take_reading());
     samples_.push(sample);
     show(sample);
@@ -91,9 +110,17 @@ void ControlLoop::run() {
 }
 
 void ControlLoop::serve_requests(int64_t now_ns) {
-  if (stop_.exchange(false)) controller_->stop(now_ns);
+  if (stop_.exchange(false)) {
+    controller_->stop(now_ns);
+    drops_request_ = true;
+  }
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
+  if (drops_request_ && request_) {
+    request_.reset();
+    answer_ = "stopped before it was begun";
+  }
+  drops_request_ = false;
   if (request_ && controller_->request(*request_)) request_.reset();
   if (!answer_) answer_ = controller_->take_answer();
 }
@@ -102,7 +129,8 @@ void ControlLoop::show(const ControlSample& sample) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
   const bool is_fault = sample.servo.state == ServoState::kFault;
-  if (is_fault && fault_text_.empty()) fault_text_ = controller_->fault_text();
+  if (is_fault && (fault_text_.empty() || newest_.servo.state != ServoState::kFault))
+    fault_text_ = controller_->fault_text();
   if (!is_fault) fault_text_.clear();
   newest_ = sample;
 }

@@ -54,6 +54,7 @@ class ControlLoop {
   void run();
   void serve_requests(int64_t now_ns);
   void show(const ControlSample& sample);
+  static bool has_power(const ControlSample& sample);
 
   SpscRing<ControlSample> samples_{kSamples};
   SpscRing<CanFrame> frames_{kFrames};
@@ -63,7 +64,8 @@ class ControlLoop {
   const double cycle_;
   const int rt_priority_;
   CycleTimes times_;
-  std::atomic<bool> stop_ = false, started_ = false, ending_ = false;
+  std::atomic<bool> stop_ = false, started_ = false, ending_ = false, releasing_ = false;
+  bool drops_request_ = false;  ///< of the loop's thread: a stop cancels what waits
 
   mutable std::mutex mutex_;           // held for moments; the loop only tries
   std::optional<ArmRequest> request_;  // guarded by mutex_, as all below

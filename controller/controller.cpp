@@ -68,8 +68,9 @@ class Controller {
             poses_, options.servo.motion.cycle, options.rt_priority),
         control_(loop_, poses_, facts(), [this] { signals_.end(); }),
         publisher_(address_),
-        receiver_(address_,
-                  [this](ReceivedMessage&& message) { poses_.take(message, wall_minus_steady_ns()); }) {
+        receiver_(address_, [this](ReceivedMessage&& message) {
+          poses_.take(message, steady_ns(), wall_minus_steady_ns());
+        }) {
     if (!options.log.empty()) log_ = std::make_unique<SampleLog>(options.log);
     if (!options.capture.empty())
       capture_ = std::make_unique<PcapWriter>(options.capture, wall_minus_steady_ns());
@@ -100,6 +101,7 @@ class Controller {
       if (receiver_.failed() || server_->failed())
         throw InputError("edgepose-servo: the system refuses to wait for messages; ending");
     }
+    loop_.stop();  // before anything that may wait
     log_event(LogLevel::kInfo, "stopping");
     sd_notify(0, "STOPPING=1");
   }
@@ -165,6 +167,10 @@ class Controller {
     edgepose_lcm::arm_state_t message = to_message(newest_, loop_.fault_text(), control_.target());
     message.send_utime = utime_now();
     publisher_.publish(channels::kArmState, encode(message));
+    if (loop_.samples().dropped() > 0 || loop_.frames().dropped() > 0)
+      log_limited(LogLevel::kWarning, "recording_lost", "written too slowly",
+                  {{"frames", std::to_string(loop_.frames().dropped())},
+                   {"cycles", std::to_string(loop_.samples().dropped())}});
     if ((capture_ && capture_->lost() > 0) || (log_ && log_->lost() > 0))
       log_limited(LogLevel::kWarning, "recording_lost", "the disk has no room",
                   {{"frames", std::to_string(capture_ ? capture_->lost() : 0)},

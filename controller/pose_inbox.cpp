@@ -12,8 +12,10 @@
 namespace edgepose {
 namespace {
 
-constexpr double kMaxTargetAge = 1.0;  // [s] of the frame that shows the hole when go is said
-constexpr size_t kMaxTargets = 1000;   // of one model; more is no plan
+constexpr double kMaxTargetAge = 1.0;       // [s] of the frame that shows the hole when go is said
+constexpr int64_t kClockStep = 2'000'000;   // [ns] between two messages: more than clocks are slewed
+constexpr int64_t kUnderWay = 400'000'000;  // [ns] that a frame may be on its way, as the gate's max_age
+constexpr size_t kMaxTargets = 1000;        // of one model; more is no plan
 
 /// Of the same hole in two frames: rounding only.
 bool is_same(const ServoGoal& a, const ServoGoal& b) {
@@ -53,12 +55,24 @@ PoseInbox::PoseInbox(std::string model, std::string camera, const std::optional<
   if (key) verifier_.emplace(*key);
 }
 
-void PoseInbox::take(const ReceivedMessage& message, int64_t wall_minus_steady_ns) {
+void PoseInbox::take(const ReceivedMessage& message, int64_t now_ns, int64_t wall_minus_steady_ns) {
+  const bool steady = is_clock_steady(now_ns, wall_minus_steady_ns);
   if (message.channel == channels::kPoses) {
     if (is_genuine(message)) take_poses(message);
   } else if (message.channel == channels::kDrillTargets) {
-    if (is_genuine(message)) take_targets(message, wall_minus_steady_ns);
+    if (!is_genuine(message)) return;
+    if (!steady) return counters_.add("frames_after_the_clock_was_set");
+    take_targets(message, wall_minus_steady_ns);
   }
+}
+
+/// When the wall clock is set, frames that are under way bear the old time: they would be placed where the
+/// arm was at another moment. They are left out.
+bool PoseInbox::is_clock_steady(int64_t now_ns, int64_t wall_minus_steady_ns) {
+  if (wall_minus_steady_ns_ && std::abs(wall_minus_steady_ns - *wall_minus_steady_ns_) > kClockStep)
+    clock_doubted_until_ns_ = now_ns + kUnderWay;
+  wall_minus_steady_ns_ = wall_minus_steady_ns;
+  return now_ns >= clock_doubted_until_ns_;
 }
 
 bool PoseInbox::is_genuine(const ReceivedMessage& message) {
@@ -127,6 +141,17 @@ void PoseInbox::pair(const edgepose_lcm::drill_targets_t& targets, int64_t wall_
     else
       counters_.add("targets_not_proper");
   }
+  // Which of several bones is meant nobody knows.
+  const auto accepted = std::count_if(answer->detections.begin(), answer->detections.end(),
+                                      [](const auto& one) { return one.accepted; });
+  if (accepted > 1) {
+    counters_.add("frames_with_several_instances");
+    reading.accepted = false;
+    for (auto& [name, target] : seen) {
+      target.go = false;
+      target.reason = "the model is seen " + std::to_string(accepted) + " times";
+    }
+  }
   const std::scoped_lock lock(mutex_);
   targets_ = std::move(seen);
   if (!followed_.empty() && reading.accepted && !is_followed_target_sound()) {
@@ -169,11 +194,10 @@ SeenTarget PoseInbox::find(const std::string& target, double now) const {
   return found->second;
 }
 
-void PoseInbox::follow(const std::string& target) {
+void PoseInbox::follow(const std::string& target, const ServoGoal& hole) {
   const std::scoped_lock lock(mutex_);
   followed_ = target;
-  const auto found = targets_.find(target);
-  followed_hole_ = found == targets_.end() ? std::nullopt : std::optional(found->second.hole);
+  followed_hole_ = hole;
 }
 
 }  // namespace edgepose

@@ -77,10 +77,7 @@ std::optional<std::string> ServoControl::run(const RpcRequest& request, LineServ
     const ServoState state = loop_.newest().servo.state;
     if (state != ServoState::kArmed)
       throw RpcError(RpcCode::kRefused, "go is refused while " + std::string(state_name(state)));
-    poses_.follow(target);
-    post({ArmCommand::kGo, seen.hole}, request, client, later);
-    const std::scoped_lock lock(mutex_);
-    target_ = target;
+    post({ArmCommand::kGo, seen.hole}, request, client, later, target);
   } else {
     throw RpcError(RpcCode::kNoMethod, "method: none is called '" + method + "'; did you mean " +
                                            nearest_word(method, kMethods) + "?");
@@ -89,11 +86,11 @@ std::optional<std::string> ServoControl::run(const RpcRequest& request, LineServ
 }
 
 void ServoControl::post(ArmRequest what, const RpcRequest& request, LineServer::ClientId client,
-                        const Later& later) {
+                        const Later& later, const std::string& target) {
   const std::scoped_lock lock(mutex_);
   if (waiting_ || !loop_.post(what))
     throw RpcError(RpcCode::kBusy, request.method + " is refused while another command is worked on");
-  waiting_ = Waiting{request, client, later};
+  waiting_ = Waiting{request, client, later, target, what.goal};
 }
 
 void ServoControl::finish_requests() {
@@ -103,6 +100,10 @@ void ServoControl::finish_requests() {
   {
     const std::scoped_lock lock(mutex_);
     waiting = std::exchange(waiting_, std::nullopt);
+    if (waiting && answer->empty() && !waiting->target.empty()) {
+      target_ = waiting->target;
+      poses_.follow(waiting->target, waiting->hole);
+    }
   }
   const ServoState state = loop_.newest().servo.state;
   log_event(answer->empty() ? LogLevel::kInfo : LogLevel::kWarning, "command",

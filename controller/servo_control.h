@@ -18,8 +18,8 @@ struct ControllerFacts {
   bool is_taught = false, is_signed = false;
 };
 
-/// Answers commands (docs/servo.md): arm, go, stop, reset, homed, status, shutdown. handle() is called on the
-/// line server's thread; finish_requests() on another.
+/// Answers commands (docs/controller.md): arm, go, stop, reset, homed, status, shutdown. handle() is called
+/// on the line server's thread; finish_requests() on another.
 class ServoControl {
  public:
   using Later = std::function<void(LineServer::ClientId, std::string)>;
@@ -38,9 +38,12 @@ class ServoControl {
     RpcRequest request;
     LineServer::ClientId client = 0;
     Later later;
+    std::string target;  ///< of go
+    ServoGoal hole;
   };
   std::optional<std::string> run(const RpcRequest& request, LineServer::ClientId client, const Later& later);
-  void post(ArmRequest what, const RpcRequest& request, LineServer::ClientId client, const Later& later);
+  void post(ArmRequest what, const RpcRequest& request, LineServer::ClientId client, const Later& later,
+            const std::string& target = "");
   std::string status() const;
 
   ControlLoop& loop_;

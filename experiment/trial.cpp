@@ -114,9 +114,16 @@ TrialResult run_trial(const WorkCell& cell, const ModelHandle& model, const Expe
                                           : matcher.messages(joints, capture_utime);
   };
   const ToldCalibration calibration{told.flange_T_camera, told.flange_T_tool};
-  VirtualCell trial(cell, cell.plan.model, calibration,
-                    goal_of(cell, model, arm, told, seed, options.taught_poses), feed,
-                    cell_options(options, draw_start(cell, target, seed)));
+  const JointVector start = draw_start(cell, target, seed);
+  RigidTransform goal;
+  try {
+    goal = goal_of(cell, model, arm, told, seed, options.taught_poses);
+  } catch (const InputError& error) {
+    result.end = std::string("could not be taught: ") + error.what();
+    result.error = positioning_error(cell, start, target);
+    return result;
+  }
+  VirtualCell trial(cell, cell.plan.model, calibration, goal, feed, cell_options(options, start));
   result.end = begin(trial, cell.target, options);
   note(trial, target, result);
   if (!result.end.empty()) return result;

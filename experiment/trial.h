@@ -12,7 +12,7 @@ namespace edgepose {
 
 /// How the goal of a positioning is known. The letters are those of docs/servoing.md.
 enum class GoalKind : uint8_t {
-  kOneShot,     ///< A: from the calibrations; one look, then blindly there
+  kOneShot,     ///< A: from the calibrations; three looks, then blindly there
   kCalibrated,  ///< B: from the calibrations, closed loop
   kExact,       ///< C: the pose in which the camera is to see the model is given
   kTaughtOne,   ///< D1: taught at one place, the hole itself

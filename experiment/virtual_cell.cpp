@@ -68,8 +68,9 @@ std::string VirtualCell::request(const ArmRequest& request) {
 std::string VirtualCell::go(const std::string& target) {
   try {
     const SeenTarget seen = poses.find(target, 1e-9 * static_cast<double>(now_ns));
-    poses.follow(target);
-    return request({ArmCommand::kGo, seen.hole});
+    std::string refusal = request({ArmCommand::kGo, seen.hole});
+    if (refusal.empty()) poses.follow(target, seen.hole);
+    return refusal;
   } catch (const InputError& error) {
     return error.what();
   }
@@ -97,7 +98,7 @@ void VirtualCell::look() {
 
 void VirtualCell::deliver() {
   for (; !deliveries_.empty() && deliveries_.front().due_ns <= now_ns; deliveries_.pop_front())
-    poses.take(received(deliveries_.front().message), wall_minus_steady_ns);
+    poses.take(received(deliveries_.front().message), now_ns, wall_minus_steady_ns);
 }
 
 }  // namespace edgepose

@@ -26,10 +26,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const size_t first = std::min<size_t>(data[0] << 8 | data[1], size - 2);
   PoseInbox inbox("vertebra_phantom", "", std::nullopt);
   constexpr int64_t kWall = 1'700'000'000'000'000'000;
-  inbox.take(message_of(channels::kPoses, data + 2, first, edgepose_lcm::pose_estimates_t::getHash()), kWall);
+  inbox.take(message_of(channels::kPoses, data + 2, first, edgepose_lcm::pose_estimates_t::getHash()), 0,
+             kWall);
   inbox.take(message_of(channels::kDrillTargets, data + 2 + first, size - 2 - first,
                         edgepose_lcm::drill_targets_t::getHash()),
-             kWall);
+             0, kWall);
   const auto reading = inbox.take_reading();
   if (!reading) return 0;
   must_hold(std::isfinite(reading->capture_time));

@@ -54,6 +54,11 @@ struct ExperimentCommand {
     std::filesystem::create_directories(output);
     const std::filesystem::path file = output / "trials.csv";
     std::vector<ArmResults> done = read_trials(file, options.arms);
+    for (ArmResults& arm : done)
+      std::erase_if(arm.trials, [&](const TrialResult& trial) {
+        return trial.seed < options.first_seed ||
+               trial.seed >= options.first_seed + static_cast<uint64_t>(options.trials);
+      });
     size_t count = 0;
     for (const ArmResults& arm : done) count += arm.trials.size();
     const size_t all = static_cast<size_t>(options.trials) * options.arms.size();

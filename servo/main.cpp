@@ -38,16 +38,16 @@ struct RunCommand {
   ControllerOptions given;
   bool check_only = false;
 
-  ControllerOptions options() const {
+  std::vector<std::pair<std::string, CLI::Option*>> on_command_line = {};  ///< by key
+
+  ControllerOptions options() {
     ControllerOptions all = config.empty() ? ControllerOptions{} : read_controller_options(config);
-    ControllerOptions command_line = given;
-    std::vector<SettingKey> to = controller_keys(all), from = controller_keys(command_line);
-    ControllerOptions untouched;
-    std::vector<SettingKey> none = controller_keys(untouched);
+    std::vector<SettingKey> to = controller_keys(all), from = controller_keys(given);
     for (size_t i = 0; i < to.size(); ++i)
-      if (to_toml(from[i]) != to_toml(none[i]))
-        std::visit([&](auto* field) { *field = *std::get<std::decay_t<decltype(field)>>(from[i].field); },
-                   to[i].field);
+      for (const auto& [key, option] : on_command_line)
+        if (key == to[i].path && option->count() > 0)
+          std::visit([&](auto* field) { *field = *std::get<std::decay_t<decltype(field)>>(from[i].field); },
+                     to[i].field);
     all.check(config.empty() ? "options" : config);
     return all;
   }
@@ -57,19 +57,22 @@ void add_run_command(CLI::App& app) {
   auto command = std::make_shared<RunCommand>();
   ControllerOptions& o = command->given;
   CLI::App* run = app.add_subcommand("run", "Run the controller");
+  const auto add = [&](const char* name, const std::string& key, std::string& field, const char* help) {
+    command->on_command_line.emplace_back("controller." + key, run->add_option(name, field, help));
+  };
   run->add_option("--config", command->config, "TOML file (config/edgepose-servo.toml lists every key)");
   run->add_flag("--check-config", command->check_only, "Say whether the configuration is sound, and end");
-  run->add_option("--bus", o.bus, "CAN interface, unix:/path or pcap:/file (default can0)");
-  run->add_option("--lcm-url", o.lcm_url, "Where the pose service publishes");
-  run->add_option("--model", o.model, "Name of the model in the pose service");
-  run->add_option("--camera", o.camera, "Only frames of this camera");
-  run->add_option("--hand-eye", o.hand_eye, "File of edgepose calibrate hand-eye");
-  run->add_option("--tool", o.tool, "File that says where the tool is on the flange");
-  run->add_option("--taught", o.taught, "File of edgepose teach: without it no set-up reaches 1 mm");
-  run->add_option("--key", o.key_file, "Only messages signed with this key count (edgepose keygen)");
-  run->add_option("--socket", o.control_socket, "Unix socket for commands");
-  run->add_option("--log", o.log, "Write a line of CSV for each cycle");
-  run->add_option("--capture", o.capture, "Write every frame of the bus, for Wireshark (pcap)");
+  add("--bus", "bus", o.bus, "CAN interface, unix:/path or pcap:/file (default can0)");
+  add("--lcm-url", "lcm_url", o.lcm_url, "Where the pose service publishes");
+  add("--model", "model", o.model, "Name of the model in the pose service");
+  add("--camera", "camera", o.camera, "Only frames of this camera");
+  add("--hand-eye", "hand_eye", o.hand_eye, "File of edgepose calibrate hand-eye");
+  add("--tool", "tool", o.tool, "File that says where the tool is on the flange");
+  add("--taught", "taught", o.taught, "File of edgepose teach: without it no set-up reaches 1 mm");
+  add("--key", "key_file", o.key_file, "Only messages signed with this key count (edgepose keygen)");
+  add("--socket", "control_socket", o.control_socket, "Unix socket for commands");
+  add("--log", "log", o.log, "Write a line of CSV for each cycle");
+  add("--capture", "capture", o.capture, "Write every frame of the bus, for Wireshark (pcap)");
   run->footer(kRunExamples);
   run->callback([command] {
     const ControllerOptions options = command->options();

@@ -54,7 +54,7 @@ PoseVerdict PoseGate::verdict(const PoseReading& reading, double now, bool arm_k
   const double age = now - reading.capture_time;
   if (age < -options_.max_future) return PoseVerdict::kFromFuture;
   if (age > options_.max_age) return PoseVerdict::kStale;
-  if (last_sequence_ && (reading.sequence <= *last_sequence_ || reading.capture_time <= last_capture_))
+  if (reading.capture_time <= last_capture_ || (last_sequence_ && reading.sequence <= *last_sequence_))
     return PoseVerdict::kNotNew;
   if (!reading.accepted) return PoseVerdict::kNotAccepted;
   if (reading.score < options_.min_score) return PoseVerdict::kLowScore;

@@ -59,6 +59,9 @@ class PoseGate {
   PoseVerdict judge(const PoseReading& reading, double now, bool arm_known,
                     const std::optional<RigidTransform>& expected);
 
+  /// From now on only the capture time says what is new.
+  void forget_sequence() { last_sequence_.reset(); }
+
   int64_t count(PoseVerdict verdict) const { return counts_[static_cast<size_t>(verdict)]; }
 
  private:
@@ -68,7 +71,7 @@ class PoseGate {
   PoseGateOptions options_;
   std::array<int64_t, kPoseVerdicts> counts_{};
   std::optional<int64_t> last_sequence_;
-  double last_capture_ = 0;
+  double last_capture_ = -1e300;
 };
 
 }  // namespace edgepose

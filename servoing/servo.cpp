@@ -58,6 +58,7 @@ std::string Servo::arm(const JointVector& measured) {
   command_ = {measured, JointVector::Zero(), JointVector::Zero()};
   base_T_model_.reset();
   poses_taken_ = 0;
+  gate_.forget_sequence();  // a camera that was started again counts anew
   return "";
 }
 
@@ -69,6 +70,7 @@ std::string Servo::go(const ServoGoal& goal, double now) {
   goal_chosen_ = false;
   standoff_ = options_.approach.standoff;
   go_time_ = last_capture_ = now;
+  poses_since_go_ = 0;  // what was seen before says nothing of where the model is now
   blocked_since_ = -1;
   convergence_.restart();
   return "";
@@ -96,14 +98,15 @@ void Servo::fail(FaultCause cause, const std::string& detail, bool drives_off) {
 }
 
 const ServoSample& Servo::cycle(double now, const JointVector& measured,
-                                const std::optional<PoseReading>& reading) {
+                                const std::optional<PoseReading>& reading, double state_age) {
   ServoSample sample;
   sample.time = now;
+  state_time_ = now - state_age;
   sample.measured = measured;
   check_arm(sample);
   if (reading && state_ != ServoState::kIdle) take_pose(*reading, sample);
   check_times(sample);
-  if (may_move(state_) && base_T_model_ && poses_taken_ >= options_.confirming_poses)
+  if (may_move(state_) && base_T_model_ && poses_since_go_ >= options_.confirming_poses)
     move(sample);
   else
     command_ = stop_motion(command_, options_.motion);
@@ -118,10 +121,10 @@ const ServoSample& Servo::cycle(double now, const JointVector& measured,
 }
 
 void Servo::check_arm(ServoSample& sample) {
-  const bool known = history_.add(sample.time - options_.state_age, sample.measured);
+  history_.add(state_time_, sample.measured);  // one that has come before is refused, and is there already
   if (state_ == ServoState::kIdle || state_ == ServoState::kFault) return;
-  if (!known)
-    return fail(FaultCause::kBadState, "measured joint positions are not finite, or not newer than the last");
+  if (!sample.measured.allFinite())
+    return fail(FaultCause::kBadState, "measured joint positions are not finite");
   int joint = 0;
   const double error = (sample.measured - command_.position).cwiseAbs().maxCoeff(&joint);
   if (error > options_.max_following)
@@ -137,12 +140,13 @@ void Servo::take_pose(const PoseReading& reading, ServoSample& sample) {
   if (sample.verdict != PoseVerdict::kTaken) return;
   const RigidTransform base_T_model = base_T_camera(*joints) * reading.camera_T_model;
   ++poses_taken_;
+  ++poses_since_go_;
   const double share = std::max(options_.newest_share, 1.0 / poses_taken_);
   base_T_model_ = base_T_model_ ? blended(*base_T_model_, base_T_model, share) : base_T_model;
   last_capture_ = reading.capture_time;
   if (!may_move(state_) || !goal_chosen_) return;
   RigidTransform goal_T_tool;
-  see_goal(command_.position, sample, goal_T_tool);
+  see_goal(sample.measured, sample, goal_T_tool);  // where the arm is, not where it was told to be
   if (!convergence_.add(sample.tool_error)) return;
   if (state_ == ServoState::kApproaching) {
     command(ServoEvent::kStandoffReached);
@@ -163,7 +167,7 @@ void Servo::check_times(const ServoSample& sample) {
 void Servo::move(ServoSample& sample) {
   if (!goal_chosen_) start_goal();
   RigidTransform goal_T_tool;
-  see_goal(command_.position, sample, goal_T_tool);
+  see_goal(sample.measured, sample, goal_T_tool);  // so that an arm that hangs below its command is corrected
   ServoCommand wanted = servo_command(goal_T_tool, options_.gain);
   if (wanted.near_half_turn)
     fail(FaultCause::kHalfTurn, "the tool is turned away from the goal by 170 degrees or more");

@@ -29,7 +29,6 @@ struct ServoOptions {
   double blocked_timeout =
       3;  ///< [s] held back by a singularity or a joint's limit, after which it is a fault
   double goal_timeout = 120;    ///< [s] from go to touch
-  double state_age = 0;         ///< [s] of the measured joints when they come in: they are of the last SYNC
   double max_following = 0.05;  ///< [rad] between commanded and measured joints, the drives' lag included
 
   std::string check() const;  ///< what is wrong, the field's name first, or nothing
@@ -82,11 +81,11 @@ class Servo {
   /// themselves, so the command stays where it is; else the arm comes to rest by the controlled stop.
   void fail(FaultCause cause, const std::string& detail, bool drives_off = false);
 
-  /// One cycle. `now` [s] on the steady clock; `measured` [rad] of this cycle; `reading`: a pose that has
-  /// come since the last. In every state: what to command. Where nothing may move, it comes to rest by the
-  /// controlled stop.
-  const ServoSample& cycle(double now, const JointVector& measured,
-                           const std::optional<PoseReading>& reading);
+  /// One cycle. `now` [s] on the steady clock; `measured` [rad]: the joints `state_age` [s] ago; `reading`: a
+  /// pose that has come since the last. In every state: what to command. Where nothing may move, it comes to
+  /// rest by the controlled stop.
+  const ServoSample& cycle(double now, const JointVector& measured, const std::optional<PoseReading>& reading,
+                           double state_age = 0);
 
   ServoState state() const { return state_; }
   FaultCause fault() const { return fault_; }
@@ -126,6 +125,8 @@ class Servo {
 
   std::optional<RigidTransform> base_T_model_;  ///< the estimate, from the poses taken since arm
   int poses_taken_ = 0;
+  int poses_since_go_ = 0;
+  double state_time_ = 0;  ///< [s] of the measured joints
   double last_capture_ = 0;
   ServoGoal goal_;
   RigidTransform model_T_tool_touch_ = RigidTransform::Identity();  ///< the goal at the entry, turn chosen

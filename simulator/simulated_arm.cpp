@@ -46,6 +46,7 @@ SimulatedArm::SimulatedArm(CanBus& bus, const SimulatedArmOptions& options, int6
     drive.scale = options.scale;
     drive.position = options.start[axis];
     drive.lag = options.lag;
+    drive.sag = options.sag[axis];
     drives_[static_cast<size_t>(axis)] = std::make_unique<Drive>(bus, drive, now_ns);
     if (axis == options.duplicate_axis) duplicate_ = std::make_unique<Drive>(bus, drive, now_ns);
     if (axis == options.absent_axis) provoke(axis, Provocation::kDead);

@@ -14,6 +14,7 @@ struct SimulatedArmOptions {
   JointVector start = JointVector::Zero();          ///< [rad]
   JointScale scale;                                 ///< encoder steps a turn
   double lag = 0.004;                               ///< [s] with which axes follow their demand
+  JointVector sag = JointVector::Zero();            ///< [rad] that axes rest beside it
   std::array<DriveIdentity, kJoints> identities{};  ///< object 1018 of each
   int duplicate_axis = -1;  ///< 0 to 5: a second drive with this one's node number is on the bus; -1: none
   int absent_axis = -1;     ///< 0 to 5: this drive is not there (its axis stays where it is); -1: none

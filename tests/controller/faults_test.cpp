@@ -95,6 +95,14 @@ struct WrongPoses : testing::TestWithParam<PoseWrong> {};
 /// ... and those that are wrong by themselves, not as against the ones before.
 struct WrongFirstPoses : testing::TestWithParam<PoseWrong> {};
 
+/// Poses and messages that came and were refused.
+uint64_t refused(MovingArm& arm) {
+  uint64_t count = arm->sample.poses_refused;
+  for (const char* name : {"messages_unsigned", "messages_altered", "messages_replayed", "poses_not_proper"})
+    count += arm->poses.counters().get(name);
+  return count;
+}
+
 TEST_P(WrongPoses, InMotionDoAsMuchAsSilence) {
   const SecretKey key = SecretKey::random();
   repeat([&](uint64_t seed) {
@@ -103,8 +111,10 @@ TEST_P(WrongPoses, InMotionDoAsMuchAsSilence) {
     twin.set_out();
     arm.source.set_wrong(GetParam());
     twin.source.set_wrong(PoseWrong::kSilent);
+    const uint64_t before = refused(arm);
     arm->run(2.5);
     twin->run(2.5);
+    EXPECT_GT(refused(arm), before + 30) << "they did come";
     EXPECT_EQ(arm->arm.position(), twin->arm.position());
     EXPECT_FALSE(arm->is_moving());
   });
@@ -134,7 +144,9 @@ TEST_P(WrongFirstPoses, MoveNothing) {
     arm->run(0.6);
     ASSERT_EQ(arm->request({ArmCommand::kArm, {}}), "");
     ASSERT_EQ(arm->request({ArmCommand::kGo, {hole.entry, hole.axis}}), "");
+    const uint64_t before = refused(arm);
     EXPECT_LT(arm.motion_during(3), 2 * 2 * M_PI / (1 << 20));
+    EXPECT_GT(refused(arm), before + 30) << "they did come";
   });
 }
 
@@ -214,6 +226,7 @@ TEST(Faults, DriveRebootsInMotion) {
     EXPECT_THAT(to_rest, testing::AllOf(testing::Ge(0), testing::Le(300)));
     rest.add(to_rest);
     expect_fault(arm, FaultCause::kDrive, "node " + std::to_string(seed % 6 + 1));
+    arm->run(0.6);
     ASSERT_EQ(arm->request({ArmCommand::kReset, {}}), "");
     EXPECT_THAT(arm->request({ArmCommand::kArm, {}}), HasSubstr("homed"));
     EXPECT_EQ(arm->request({ArmCommand::kHomed, {}}), "");

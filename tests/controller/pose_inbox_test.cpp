@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "messaging/checked_decode.h"
+#include "messaging/lcm_publisher.h"
 #include "simulator/pose_source.h"
 #include "tests/controller/moving_arm.h"
 
@@ -17,6 +19,7 @@ constexpr int64_t kCapture = kWall / 1000 + 5'000'000;
 
 struct Inbox : testing::Test {
   RigidTransform pose = camera_T_model(phantom_cell(), phantom_cell().nominal);
+  int64_t wall = kWall;
   PoseSource source{phantom_cell().plan, std::nullopt};
   PoseInbox inbox{phantom_cell().plan.model, "", std::nullopt};
 
@@ -27,7 +30,7 @@ struct Inbox : testing::Test {
       one.size = message.bytes.size();
       one.bytes = std::make_unique<std::byte[]>(one.size);
       std::copy(message.bytes.begin(), message.bytes.end(), one.bytes.get());
-      by.take(one, kWall);
+      by.take(one, 5'100'000'000, wall);
     }
   }
   std::vector<OutgoingMessage> answer() { return source.messages(pose, kCapture, kCapture + 100'000); }
@@ -94,7 +97,7 @@ TEST_F(Inbox, OtherCamerasAreNotListenedTo) {
 
 TEST_F(Inbox, AReadingWithoutTheFollowedHoleIsNotAccepted) {
   take(answer(), inbox);
-  inbox.follow(kTarget);
+  inbox.follow(kTarget, inbox.find(kTarget, 5.1).hole);
   take(answer(), inbox);
   EXPECT_TRUE(inbox.take_reading()->accepted);
   DrillPlan less = phantom_cell().plan;
@@ -141,6 +144,27 @@ TEST_F(Inbox, WhatIsNoMessageIsCounted) {
   take({{"EDGEPOSE_POSES", std::vector<std::byte>(40)}}, inbox);
   take({{"EDGEPOSE_DRILL_TARGETS", {}}}, inbox);
   EXPECT_EQ(inbox.counters().get("messages_malformed"), 2u);
+}
+
+TEST_F(Inbox, FramesUnderWayWhileTheClockIsSetAreLeftOut) {
+  take(answer(), inbox);
+  EXPECT_TRUE(inbox.take_reading());
+  wall += 50'000'000;  // by 50 ms: few enough for the gate to take it
+  take(answer(), inbox);
+  EXPECT_FALSE(inbox.take_reading());
+  EXPECT_EQ(inbox.counters().get("frames_after_the_clock_was_set"), 1u);
+}
+
+TEST_F(Inbox, TwoBonesAreNotFollowed) {
+  edgepose_lcm::pose_estimates_t poses;
+  std::vector<OutgoingMessage> messages = answer();
+  ASSERT_EQ(decode_checked(messages[0].bytes, poses), "");
+  poses.answers[0].detections.push_back(poses.answers[0].detections[0]);
+  poses.answers[0].detections_count = 2;
+  messages[0].bytes = encode(poses);
+  take(messages, inbox);
+  EXPECT_FALSE(inbox.take_reading()->accepted);
+  EXPECT_THAT(fault_of(kTarget), HasSubstr("seen 2 times"));
 }
 
 }  // namespace
