@@ -34,8 +34,8 @@ int lock_beside(const std::filesystem::path& path) {
   if (lock < 0) throw failure(file, "a folder that the daemon may write");
   if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
     close(lock);
-    throw InputError::at(path.string(), "a socket that nobody listens on", "another edgeposed there",
-                         "stop that one, or set service.control_socket");
+    throw InputError::at(path.string(), "a socket that nobody listens on", "another program there",
+                         "stop that one, or name another socket");
   }
   return lock;
 }
