@@ -147,9 +147,9 @@ TEST_F(DaemonTest, TwoOnOneSocketOrFolderIsAClearError) {
     return test::read_text(other / "log");
   };
   EXPECT_THAT(refused({"--state", other / "state", "--socket", daemon_->socket()}),
-              testing::HasSubstr("another edgeposed"));
+              testing::HasSubstr("another program"));
   EXPECT_THAT(refused({"--state", folder_ / "state", "--socket", other / "socket"}),
-              testing::HasSubstr("another edgeposed"));
+              testing::HasSubstr("another program"));
   EXPECT_TRUE(daemon_->result("status")["ready"]) << "the first is not disturbed";
 }
 
