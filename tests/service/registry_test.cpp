@@ -87,7 +87,7 @@ TEST_F(RegistryFolder, OnlyOneAtATime) {
     const Registry second(folder_ / "");
     FAIL() << "two registries in one folder";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("another program"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("another edgeposed"));
   }
 }
 
