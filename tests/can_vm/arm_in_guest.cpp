@@ -14,13 +14,13 @@ constexpr int64_t kOld = 60'000'000'000;  // [ns]: a pair's truth is in the gues
 
 }  // namespace
 
-Lateness::Lateness() {
-  thread_ = std::thread([this] {
+Lateness::Lateness(int64_t& worst_ns) {
+  thread_ = std::thread([this, &worst_ns] {
     for (int64_t next = steady_ns(); !ending_;) {
-      next += 2 * kMillisecond;
+      next += 5 * kMillisecond;
       wait_for_input(-1, next);
       const int64_t now = steady_ns();
-      worst_ns_ = std::max<int64_t>(worst_ns_, now - next);
+      worst_ns = std::max(worst_ns, now - next);
       next = now;
     }
   });
@@ -50,11 +50,19 @@ void ArmInGuest::pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-ArmProcesses& ArmInGuest::start(std::vector<std::string> servo) {
+void ArmInGuest::start() {
   end();
-  arm_ = std::make_unique<ArmProcesses>(++pairs_, std::vector<std::string>{}, std::move(servo), "vcan0");
+  ways_ = 0;
+  arm_ = std::make_unique<ArmProcesses>(++pairs_, std::vector<std::string>{}, servo_options_, "vcan0");
   started_ns_ = steady_ns();
-  return *arm_;
+}
+
+ArmProcesses& ArmInGuest::moving_anew(std::vector<std::string> servo) {
+  end();
+  servo_options_ = std::move(servo);
+  ArmProcesses& arm = moving();
+  servo_options_.clear();
+  return arm;
 }
 
 void ArmInGuest::set_out_again() {
@@ -81,7 +89,7 @@ ArmProcesses& ArmInGuest::moving() {
   std::string cause;
   for (int attempt = 0; attempt < 5; ++attempt) {
     try {
-      if (!arm_ || attempt > 1 || steady_ns() - started_ns_ > kOld) start();
+      if (!arm_ || attempt > 1 || !servo_options_.empty() || steady_ns() - started_ns_ > kOld) start();
       set_out_again();
       return *arm_;
     } catch (const std::runtime_error& error) {  // a machine too busy, which faults a drive
@@ -98,13 +106,12 @@ void ArmInGuest::repeat(const std::string& name, const std::vector<Worst*>& figu
     std::vector<double> measured;
     in_real_time(
         name, 5 * kMillisecond,
-        [&] {
+        [&](int64_t& late_ns) {
           ArmProcesses& arm = moving();
           BusRecord record(trace_file("arm_" + name + ".pcap"));
           pause(0.05);
-          const Lateness late;
+          const Lateness lateness(late_ns);
           measured = trial(arm, record);
-          return late.worst_ns();
         },
         [] {});
     for (size_t k = 0; k < figures.size() && k < measured.size(); ++k) figures[k]->add(measured[k]);

@@ -12,18 +12,17 @@
 
 namespace edgepose::test {
 
-/// How late the machine lets run who comes before all others: what the guest as a whole misses.
+/// How late the machine lets run who comes before all others: what the guest as a whole misses. Left in
+/// `worst_ns` at the end.
 class Lateness {
  public:
-  Lateness();
+  explicit Lateness(int64_t& worst_ns);
   Lateness(const Lateness&) = delete;
   Lateness& operator=(const Lateness&) = delete;
   ~Lateness();
-  int64_t worst_ns() const { return worst_ns_; }
 
  private:
   std::atomic<bool> ending_ = false;
-  std::atomic<int64_t> worst_ns_ = 0;
   std::thread thread_;
 };
 
@@ -39,22 +38,24 @@ class ArmInGuest : public testing::Test {
   /// that it is measured by. Repeated if it failed while the machine was 5 ms late or more.
   void repeat(const std::string& name, const std::vector<Worst*>& figures,
               const std::function<std::vector<double>(ArmProcesses&, BusRecord&)>& trial);
-  /// A new pair.
-  static ArmProcesses& start(std::vector<std::string> servo = {});
   static ArmProcesses& arm() { return *arm_; }
   /// Ends the pair.
   static void end() { arm_.reset(); }
   /// The arm on its way to a hole, with the pair that there is or a new one.
   static ArmProcesses& moving();
+  /// With a new pair.
+  static ArmProcesses& moving_anew(std::vector<std::string> servo);
   static void pause(double seconds);
 
  private:
+  static void start();
   static void set_out_again();
 
   static inline bool has_can_ = false;
   static inline std::unique_ptr<ArmProcesses> arm_;
   static inline int64_t started_ns_ = 0;
   static inline uint64_t pairs_ = 0, ways_ = 0;
+  static inline std::vector<std::string> servo_options_;
 };
 
 bool is_at_rest(const TruthLine& line);

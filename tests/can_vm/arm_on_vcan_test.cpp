@@ -16,10 +16,10 @@ class ArmOnVcan : public Vcan {
   void in_real_time(const std::string& trace, const std::function<void(LiveArm&)>& session) {
     edgepose::in_real_time(
         trace, 3 * kMillisecond,
-        [&] {
+        [&](int64_t& late_ns) {
           LiveArm arm(trace_file(trace));
           session(arm);
-          return arm.worst_lateness_ns();
+          late_ns = arm.worst_lateness_ns();
         },
         [this] {
           TearDown();

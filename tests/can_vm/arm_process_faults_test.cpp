@@ -36,8 +36,12 @@ class ArmProcessFaults : public ArmInGuest {
     for (const TruthLine& line : arm.read_truth(steps.front()))
       if (line.time_ns < steps.back() + 300 * kMillisecond) least = std::min(least, line.fastest());
     EXPECT_GT(least, 1e-3) << "rad/s: it goes on moving";
-    eventually([&] { return arm.state() == "converged" || arm.state() == "fault"; }, 60);
-    EXPECT_EQ(arm.state(), "converged") << arm.log();
+    std::string state;
+    for (int i = 0; i < 300 && state != "converged" && state != "fault"; ++i) {
+      pause(0.2);  // not more often: the guest has other work
+      state = arm.state();
+    }
+    EXPECT_EQ(state, "converged") << arm.log();
     const double refused = arm.servo("status")["poses_refused"];
     EXPECT_LE(refused, 3) << "one that was under way at each step";
     arm.controller().signal(SIGTERM);
@@ -56,13 +60,14 @@ TEST_F(ArmProcessFaults, ReachesTheHoleWhileTheClockIsSetByAnHour) {
   Worst along("reaches the hole, the clock set by an hour there and back: tip from the entry, mm");
   Worst refused("... poses refused");
   std::vector<double> figures;
-  const auto session = [&] {
+  const auto session = [&](int64_t& late_ns) {
     // Captured by the controller itself, from its start to its end.
-    ArmProcesses& arm = start({"--capture", trace_file("arm_session.pcap")});
-    arm.set_out();
-    const Lateness late;
+    const std::filesystem::path capture = std::filesystem::temp_directory_path() / "arm_session.pcap";
+    ArmProcesses& arm = moving_anew({"--capture", capture});
+    const Lateness lateness(late_ns);
     figures = approach_and_end(arm);
-    return late.worst_ns();
+    std::filesystem::copy_file(capture, trace_file("arm_session.pcap"),
+                               std::filesystem::copy_options::overwrite_existing);
   };
   for (int i = process_repetitions(1); i > 0 && !HasFailure(); --i) {
     in_real_time("session", 5 * kMillisecond, session, [] {});

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "bus/pcap_writer.h"
 #include "bus/socket_can_bus.h"
 #include "bus/steady_clock.h"
 #include "canopen/cob_id.h"
@@ -39,7 +40,6 @@ bool is_of_master(const CanFrame& frame) {
 BusRecord::BusRecord(const std::filesystem::path& capture)
     : capture_(capture),
       wall_minus_steady_ns_(wall_minus_steady_ns()),
-      writer_(capture, wall_minus_steady_ns_),
       bus_(std::make_unique<SocketCanBus>(
           "vcan0",
           SocketCanOptions{.ids = ids_of_the_arm(), .receive_buffer_bytes = 4 << 20, .confirm = {}})),
@@ -51,21 +51,18 @@ void BusRecord::read() {
   for (bool last = false; !last;) {
     last = ending_;
     for (Received in; (in = bus_->receive(0)).kind != Received::Kind::kNothing;) {
-      if (in.kind != Received::Kind::kFrame) continue;
-      frames_.push_back(in.frame);
-      writer_.write(in.frame);
+      if (in.kind == Received::Kind::kFrame) frames_.push_back(in.frame);
     }
     if (!last) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
 
-const std::vector<CanFrame>& BusRecord::end() {
+void BusRecord::end() {
   ending_ = true;
-  if (thread_.joinable()) {
-    thread_.join();
-    writer_.flush();
-  }
-  return frames_;
+  if (!thread_.joinable()) return;
+  thread_.join();
+  PcapWriter writer(capture_, wall_minus_steady_ns_);
+  for (const CanFrame& frame : frames_) writer.write(frame);
 }
 
 void BusRecord::mark(int64_t time_ns) const {

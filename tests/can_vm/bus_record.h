@@ -1,12 +1,11 @@
 #pragma once
 #include <atomic>
 #include <filesystem>
-#include <mutex>
+#include <memory>
 #include <thread>
 #include <vector>
 
 #include "bus/can_bus.h"
-#include "bus/pcap_writer.h"
 
 namespace edgepose::test {
 
@@ -15,7 +14,7 @@ namespace edgepose::test {
 /// own, after all others, reads what waits.
 class BusRecord {
  public:
-  /// `capture`: where a pcap is written.
+  /// `capture`: where a pcap is written, when all has been heard: to write there holds up the whole guest.
   explicit BusRecord(const std::filesystem::path& capture);
   BusRecord(const BusRecord&) = delete;
   BusRecord& operator=(const BusRecord&) = delete;
@@ -23,8 +22,8 @@ class BusRecord {
 
   /// The moment, as the capture has it [s since 1970], into a file beside it: for who reads the capture.
   void mark(int64_t time_ns) const;
-  /// Ends the record. All frames, in the order in which they were on the bus.
-  const std::vector<CanFrame>& end();
+  /// Ends the record.
+  void end();
   /// Frames in [from, to) of this function (canopen/cob_id.h) of any drive; after end().
   size_t count(uint16_t function, int64_t from_ns, int64_t to_ns) const;
   /// RPDOs among them that let an axis follow its set point.
@@ -39,7 +38,6 @@ class BusRecord {
 
   const std::filesystem::path capture_;
   const int64_t wall_minus_steady_ns_;
-  PcapWriter writer_;
   std::unique_ptr<CanBus> bus_;
   std::vector<CanFrame> frames_;
   std::atomic<bool> ending_ = false;

@@ -15,7 +15,7 @@ export EDGEPOSE_CAN_TRACES=$out
 # The programs' files are in the guest's memory: the host's disk may keep it waiting.
 # shellcheck disable=SC2016 # expanded in the guest
 both='socket=0 arm=0; "$0/socket_can_test" "$@" || socket=$?; TMPDIR=/run "$0/arm_on_can_test" "$@" || arm=$?; exit $((socket | arm))'
-limit=$((170 + 60 * ${EDGEPOSE_FAULT_REPETITIONS:-1}))
+limit=$((240 + 60 * ${EDGEPOSE_FAULT_REPETITIONS:-1}))
 "$here/run_in_vm.sh" -o "$out" -t "$limit" -m 640 -- bash -c "$both" "$programs" --gtest_color=no "$@" | tee "$out/guest.log"
 # Nothing in the guest may have been skipped: it has what the host lacks.
 if grep -q '^\[  SKIPPED \]' "$out/guest.log"; then

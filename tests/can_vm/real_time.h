@@ -10,10 +10,11 @@
 
 namespace edgepose {
 
-/// Runs `session`, which returns by how much [ns] the machine was late at most. What fails while that was
+/// Runs `session`, which leaves by how much [ns] the machine was late at most. What fails while that was
 /// `limit_ns` or more proves nothing: then `prepare` and again, up to twelve times. Any other failure, also
 /// what it throws, is one of the test.
-inline void in_real_time(const std::string& what, int64_t limit_ns, const std::function<int64_t()>& session,
+inline void in_real_time(const std::string& what, int64_t limit_ns,
+                         const std::function<void(int64_t& late_ns)>& session,
                          const std::function<void()>& prepare) {
   for (int attempt = 1; !testing::Test::IsSkipped(); ++attempt) {
     testing::TestPartResultArray results;
@@ -23,7 +24,7 @@ inline void in_real_time(const std::string& what, int64_t limit_ns, const std::f
       using Reporter = testing::ScopedFakeTestPartResultReporter;
       Reporter reporter(Reporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
       try {
-        late = session();
+        session(late);
       } catch (const std::exception& error) {
         thrown = error.what();
       }
@@ -32,7 +33,8 @@ inline void in_real_time(const std::string& what, int64_t limit_ns, const std::f
     bool failed = !thrown.empty();
     for (int i = 0; i < results.size(); ++i) failed = failed || results.GetTestPartResult(i).failed();
     if (failed && late >= limit_ns && attempt < 12) {
-      std::printf("[repeated] %s: the machine was too busy for real time\n", what.c_str());
+      std::printf("[repeated] %s: the machine was too busy for real time: %s\n", what.c_str(),
+                  results.size() > 0 ? results.GetTestPartResult(0).message() : thrown.c_str());
       sleep(1);
       prepare();
       continue;
