@@ -16,6 +16,7 @@
 #include "controller/servo_control.h"
 #include "controller/state_message.h"
 #include "daemon/clock.h"
+#include "daemon/keep_awake.h"
 #include "daemon/log.h"
 #include "daemon/signals.h"
 #include "messaging/channels.h"
@@ -71,6 +72,7 @@ class Controller {
         receiver_(address_, [this](ReceivedMessage&& message) {
           poses_.take(message, steady_ns(), wall_minus_steady_ns());
         }) {
+    if (options.keep_awake) keep_awake_.emplace();
     if (!options.log.empty()) log_ = std::make_unique<SampleLog>(options.log);
     if (!options.capture.empty())
       capture_ = std::make_unique<PcapWriter>(options.capture, wall_minus_steady_ns());
@@ -178,6 +180,7 @@ class Controller {
   }
 
   Signals signals_;  // first: threads inherit what is blocked
+  std::optional<KeepAwake> keep_awake_;
   const ControllerOptions options_;
   const UdpmAddress address_;
   const std::optional<SecretKey> key_;

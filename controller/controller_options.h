@@ -24,6 +24,7 @@ struct ControllerOptions {
   std::string capture;                   ///< every frame of the bus, as pcap; empty: none
   std::string log;                       ///< a line for every cycle, as CSV; empty: none
   int rt_priority = 50;                  ///< of SCHED_FIFO, 1 to 99; 0: none
+  bool keep_awake = false;               ///< the processors never sleep (daemon/keep_awake.h)
   uint64_t vendor = DriveIdentity{}.vendor, product = DriveIdentity{}.product;  ///< 1018 of the drives
   ServoOptions servo;
   MasterOptions master;

@@ -62,6 +62,9 @@ int run(int argc, char** argv) {
   app.add_option("--duplicate-node", options.duplicate_node, "Two drives have this number, 1 to 6");
   app.add_option("--absent-node", options.absent_node, "This drive is not there, 1 to 6");
   app.add_option("--foreign-node", options.foreign_node, "This drive says it is another make's, 1 to 6");
+  app.add_flag(
+      "--keep-awake", options.keep_awake,
+      "The processors never sleep: time is kept on a virtual machine too, at the power of one that works");
   app.add_flag("--ready", options.ready, "Print READY ... on stdout when everything listens");
   app.footer(kExamples);
   try {

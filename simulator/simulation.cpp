@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "daemon/counters.h"
+#include "daemon/keep_awake.h"
 #include "daemon/line_server.h"
 #include "daemon/log.h"
 #include "daemon/signals.h"
@@ -42,6 +43,7 @@ class Simulation {
         target_(cell_.find_target(cell_.target)),
         told_(draw_told(cell_, options.noise ? ToldNoise{} : ToldNoise::none(), options.seed)),
         bus_(options.bus) {
+    if (options.keep_awake) keep_awake_.emplace();
     if (!options.told.empty()) write_told(options.told, told_, now_as_text());
     if (!options.truth.empty()) log_.emplace(options.truth, cell_, target_);
     drives_.emplace(bus_, arm_options(cell_, target_, options), log_ ? &*log_ : nullptr);
@@ -88,6 +90,7 @@ class Simulation {
   }
 
   Signals signals_;  // first: threads inherit what is blocked
+  std::optional<KeepAwake> keep_awake_;
   const WorkCell cell_;
   const DrillTarget target_;
   const ToldEquipment told_;

@@ -29,6 +29,7 @@ struct SimulationOptions {
   int duplicate_node = 0;         ///< 1 to 6: there are two drives of this number; 0: none
   int absent_node = 0;            ///< 1 to 6: this drive is not there; 0: none
   int foreign_node = 0;           ///< 1 to 6: this drive says it is another make's (1018); 0: none
+  bool keep_awake = false;        ///< the processors never sleep (daemon/keep_awake.h)
   bool ready = false;             ///< prints READY on stdout when everything listens
 
   std::string check() const;  ///< what is wrong, the option's name first, or nothing

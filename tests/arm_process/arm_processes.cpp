@@ -47,6 +47,8 @@ ArmProcesses::ArmProcesses(uint64_t seed, std::vector<std::string> sim, std::vec
                                       path("truth.csv"),
                                       "--control",
                                       path("sim.sock")};
+  if (bus_.starts_with("unix:"))
+    command.push_back("--keep-awake");  // a guest's processor is its host's to keep
   command.insert(command.end(), sim.begin(), sim.end());
   simulator_ = std::make_unique<Process>(command, path("sim.log"));
   const bool serves = eventually(
@@ -97,6 +99,15 @@ nlohmann::json ArmProcesses::sim(const std::string& method, const nlohmann::json
   return call("sim.sock", method, params);
 }
 
+std::string ArmProcesses::await_end() {
+  std::string now;
+  for (int i = 0; i < 300 && now != "converged" && now != "fault"; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // not more often: a guest has other work
+    now = state();
+  }
+  return now;
+}
+
 void ArmProcesses::set_out(const std::string& hole) {
   servo("arm");
   eventually([&] { return servo("status")["poses_taken"] >= 3; });
@@ -129,6 +140,13 @@ std::vector<TruthLine> ArmProcesses::read_truth(int64_t from_ns) const {
     if (fields) lines.push_back(line);
   }
   return lines;
+}
+
+std::filesystem::path write_patient_config(const Folder& folder) {
+  const std::filesystem::path path = folder / "patient.toml";
+  std::ofstream(path) << "[approach]\nstandoff = 0.03\n"  // [m] the shortest way at 5 mm/s
+                         "[drives]\nrpdo_timeout = 0.08\nmax_missed = 15\n";
+  return path;
 }
 
 int64_t steady_now() { return steady_ns(); }

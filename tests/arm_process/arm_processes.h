@@ -41,6 +41,8 @@ class ArmProcesses {
   nlohmann::json servo(const std::string& method, const nlohmann::json& params = nlohmann::json::object());
   nlohmann::json sim(const std::string& method, const nlohmann::json& params = nlohmann::json::object());
   std::string state() { return servo("status")["state"]; }
+  /// Until it is where it was sent, or in fault: the state then.
+  std::string await_end();
   /// Arms and goes, and waits until the arm moves.
   void set_out(const std::string& hole = kHole);
 
@@ -63,6 +65,9 @@ class ArmProcesses {
   std::vector<std::string> servo_options_;
   std::unique_ptr<Process> simulator_, controller_;
 };
+
+/// A configuration file in `folder` for what is not about time: it bears a machine that is late for 75 ms.
+std::filesystem::path write_patient_config(const Folder& folder);
 
 /// [ns] on the steady clock.
 int64_t steady_now();

@@ -1,11 +1,10 @@
 #include "tests/can_vm/arm_in_guest.h"
 
-#include <pthread.h>
-
 #include <chrono>
+#include <thread>
 
 #include "bus/steady_clock.h"
-#include "tests/can_vm/real_time.h"
+#include "tests/real_time.h"
 
 namespace edgepose::test {
 namespace {
@@ -13,25 +12,6 @@ namespace {
 constexpr int64_t kOld = 60'000'000'000;  // [ns]: a pair's truth is in the guest's memory
 
 }  // namespace
-
-Lateness::Lateness(int64_t& worst_ns) {
-  thread_ = std::thread([this, &worst_ns] {
-    for (int64_t next = steady_ns(); !ending_;) {
-      next += 5 * kMillisecond;
-      wait_for_input(-1, next);
-      const int64_t now = steady_ns();
-      worst_ns = std::max(worst_ns, now - next);
-      next = now;
-    }
-  });
-  const sched_param first{.sched_priority = 90};
-  pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &first);
-}
-
-Lateness::~Lateness() {
-  ending_ = true;
-  thread_.join();
-}
 
 void ArmInGuest::SetUpTestSuite() {
   has_can_ = enter_own_network() && run("ip link add vcan0 type vcan") && run("ip link set vcan0 up");

@@ -1,30 +1,15 @@
 #pragma once
-#include <atomic>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "tests/arm_process/arm_processes.h"
 #include "tests/can_vm/bus_record.h"
 #include "tests/can_vm/interface_change.h"
 #include "tests/can_vm/vcan.h"
+#include "tests/lateness.h"
 #include "tests/worst.h"
 
 namespace edgepose::test {
-
-/// How late the machine lets run who comes before all others: what the guest as a whole misses. Left in
-/// `worst_ns` at the end.
-class Lateness {
- public:
-  explicit Lateness(int64_t& worst_ns);
-  Lateness(const Lateness&) = delete;
-  Lateness& operator=(const Lateness&) = delete;
-  ~Lateness();
-
- private:
-  std::atomic<bool> ending_ = false;
-  std::thread thread_;
-};
 
 /// edgepose-sim and edgepose-servo as processes on a vcan0 of the guest. To start both takes it seconds, so
 /// that one pair serves many trials, each of which ends with the arm at rest; a new pair starts elsewhere.

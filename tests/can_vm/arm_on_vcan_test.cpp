@@ -4,8 +4,8 @@
 #include "canopen/cob_id.h"
 #include "tests/can_vm/interface_change.h"
 #include "tests/can_vm/live_arm.h"
-#include "tests/can_vm/real_time.h"
 #include "tests/can_vm/vcan.h"
+#include "tests/real_time.h"
 
 namespace edgepose {
 namespace {

@@ -6,7 +6,7 @@
 #include "bus/steady_clock.h"
 #include "canopen/cob_id.h"
 #include "tests/can_vm/arm_in_guest.h"
-#include "tests/can_vm/real_time.h"
+#include "tests/real_time.h"
 
 namespace edgepose::test {
 namespace {
@@ -25,25 +25,20 @@ class ArmProcessFaults : public ArmInGuest {
   /// slowest that the fastest joint was about the steps [mrad/s], poses refused.
   static std::vector<double> approach_and_end(ArmProcesses& arm) {
     std::vector<int64_t> steps;
-    for (const time_t step : {3600, -7200, 3600}) {
+    // Frames that are under way, of 0.4 s, are left out at each: less than it takes the arm to slow down.
+    for (const time_t step : {3600, -3600}) {
       steps.push_back(steady_ns());
       set_clock(step);
-      pause(0.3);
+      pause(0.7);
     }
     EXPECT_EQ(arm.state(), "approaching") << arm.log();
-    pause(0.2);
     double least = 1e9;
     for (const TruthLine& line : arm.read_truth(steps.front()))
-      if (line.time_ns < steps.back() + 300 * kMillisecond) least = std::min(least, line.fastest());
+      if (line.time_ns < steps.back() + 500 * kMillisecond) least = std::min(least, line.fastest());
     EXPECT_GT(least, 1e-3) << "rad/s: it goes on moving";
-    std::string state;
-    for (int i = 0; i < 300 && state != "converged" && state != "fault"; ++i) {
-      pause(0.2);  // not more often: the guest has other work
-      state = arm.state();
-    }
-    EXPECT_EQ(state, "converged") << arm.log();
+    EXPECT_EQ(arm.await_end(), "converged") << arm.log();
     const double refused = arm.servo("status")["poses_refused"];
-    EXPECT_LE(refused, 3) << "one that was under way at each step";
+    EXPECT_LE(refused, 2) << "one that was under way at each step";
     arm.controller().signal(SIGTERM);
     EXPECT_EQ(arm.controller().wait(10), 0) << arm.log();
     pause(0.2);  // the truth is written
@@ -62,8 +57,9 @@ TEST_F(ArmProcessFaults, ReachesTheHoleWhileTheClockIsSetByAnHour) {
   std::vector<double> figures;
   const auto session = [&](int64_t& late_ns) {
     // Captured by the controller itself, from its start to its end.
-    const std::filesystem::path capture = std::filesystem::temp_directory_path() / "arm_session.pcap";
-    ArmProcesses& arm = moving_anew({"--capture", capture});
+    const Folder folder;
+    const std::filesystem::path capture = folder / "session.pcap";
+    ArmProcesses& arm = moving_anew({"--capture", capture, "--config", write_patient_config(folder)});
     const Lateness lateness(late_ns);
     figures = approach_and_end(arm);
     std::filesystem::copy_file(capture, trace_file("arm_session.pcap"),
