@@ -49,11 +49,21 @@ void AxisMonitor::take_state(const StatePdo& state, int32_t target) {
                     state_of(state.statusword) == state_of(last_.statusword);
   same_ = same ? same_ + 1 : 0;
   if (!same) target_when_changed_ = target;
+  const double position = options_.scale.to_radians(state.position);
+  if (!has_state_ && is_placed_) state_.homed = state_.homed && is_where_it_was(position);
   last_ = state;
-  has_state_ = true;
+  has_state_ = is_placed_ = true;
   state_.statusword = state.statusword;
   state_.state = state_of(state.statusword);
-  state_.position = options_.scale.to_radians(state.position);
+  state_.position = position;
+}
+
+/// As far as an axis may have come while nobody listened: braking from its last velocity, and sagging.
+bool AxisMonitor::is_where_it_was(double position) const {
+  constexpr double kReaction = 0.1;  // [s] until it brakes
+  const double v = std::abs(state_.velocity);
+  const double braking = v * kReaction + v * v / (2 * options_.quick_stop_deceleration);
+  return std::abs(position - state_.position) <= options_.following_window + braking;
 }
 
 Fault AxisMonitor::take_heartbeat(NmtState state, int64_t now_ns) {

@@ -18,7 +18,9 @@ struct AxisState {
   DriveState state = DriveState::kUnknown;
   int missed = 0;  ///< states that did not come, in a row
   uint64_t missed_ever = 0;
-  bool homed = true;  ///< false after the drive has booted by itself, until confirm_homed()
+  /// False after the drive has booted by itself, or says after a set-up that it is where it cannot have come
+  /// to; until confirm_homed().
+  bool homed = true;
 };
 
 /// Watches one axis: keeps its state and finds what is wrong with it. Faults are values; nothing throws or
@@ -38,11 +40,14 @@ class AxisMonitor {
   const AxisState& state() const { return state_; }
   int32_t counts() const { return last_.position; }
   void confirm_homed() { state_.homed = true; }
+  /// Whoever watched before has seen the drive boot. Only one whose position was known can have lost it.
+  void lose_homing() { state_.homed = state_.homed && !is_placed_; }
 
  private:
   Fault fault(FaultKind kind, int64_t now_ns, uint32_t found = 0) const;
   Fault take_heartbeat(NmtState state, int64_t now_ns);
   void take_state(const StatePdo& state, int32_t target);
+  bool is_where_it_was(double position) const;
   Fault judge_motion(int64_t now_ns, int32_t target) const;
 
   const MasterOptions& options_;
@@ -52,7 +57,7 @@ class AxisMonitor {
   int surplus_ = 0;  ///< of TPDO1 over SYNCs
   int same_ = 0;     ///< TPDO1 in a row that said the same
   int32_t target_ = 0, target_when_changed_ = 0;
-  bool has_state_ = false;
+  bool has_state_ = false, is_placed_ = false;  ///< since begin(); ever
   int64_t heartbeat_ns_ = 0;
 };
 

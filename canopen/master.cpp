@@ -69,7 +69,16 @@ void Master::drop_old_frames(int64_t now_ns) {
     const Received received = bus_.receive(0);
     if (received.kind == Received::Kind::kNothing) return;
     if (received.kind == Received::Kind::kEvent) take_event(received.event, now_ns);
+    if (received.kind != Received::Kind::kFrame) continue;
+    const int8_t axis = axis_of_node_[static_cast<size_t>(cob_id::node_of(received.frame.id))];
+    if (axis >= 0 && decode_heartbeat(received.frame) == NmtState::kBootUp) lose_homing(axis);
   }
+}
+
+/// It has booted while nobody watched: in a fault, or in the middle of the set-up.
+void Master::lose_homing(int axis) {
+  monitors_[static_cast<size_t>(axis)].lose_homing();
+  state_.axes[static_cast<size_t>(axis)].homed = monitors_[static_cast<size_t>(axis)].state().homed;
 }
 
 EnableResult Master::enable(int64_t now_ns) {
@@ -175,11 +184,13 @@ void Master::take_event(BusEvent event, int64_t now_ns) {
 
 void Master::continue_set_up(int64_t now_ns) {
   bool all_done = true;
-  for (const auto& one : set_ups_) {
+  for (int axis = 0; axis < kAxes; ++axis) {
+    const auto& one = set_ups_[static_cast<size_t>(axis)];
     one->tick(now_ns);
     all_done = all_done && one->state() == DriveSetUp::State::kDone;
     if (one->state() != DriveSetUp::State::kFailed) continue;
     set_up_error_ = one->error();
+    if (one->found_duplicate()) lose_homing(axis);
     return latch(one->found_duplicate() ? FaultKind::kDuplicateNode : FaultKind::kSetUp, now_ns);
   }
   if (!all_done) return;

@@ -126,7 +126,9 @@ void ArmController::continue_arming(int64_t now_ns) {
       return;
     case MasterPhase::kReady:
       if (master_.enable(now_ns) == EnableResult::kHomingRequired)
-        return answer("arm is refused: a drive has booted by itself and must be homed; then say homed");
+        return answer(
+            "arm is refused: a drive has booted by itself, or is where it cannot have "
+            "come to: its position must be made sure of; then say homed");
       return;
     case MasterPhase::kEnabled:
       arming_ = false;

@@ -37,12 +37,14 @@ std::vector<ArmResults> run_experiment(const WorkCell& cell, const ExperimentOpt
                                        std::vector<ArmResults> done, const TrialNote& note,
                                        const std::stop_token& stop);
 
-/// Trials as CSV, one line each, so that an experiment that was cut short goes on where it was.
+/// Trials as CSV, one line each, so that an experiment that was cut short goes on where it was. `made_with`:
+/// one line that must be the same then.
 std::string trial_line(const ExperimentArm& arm, const TrialResult& result);
 /// The results in `path`; none if there is no such file. Lines of other arms are left out, and what is no
-/// line (half a line at the end) as well. Throws InputError if it is no such file.
-std::vector<ArmResults> read_trials(const std::filesystem::path& path,
+/// line (half a line at the end) as well. Throws InputError if it is no such file, or made with something
+/// else.
+std::vector<ArmResults> read_trials(const std::filesystem::path& path, const std::string& made_with,
                                     const std::vector<ExperimentArm>& arms);
-std::string trial_heading();
+std::string trial_heading(const std::string& made_with);
 
 }  // namespace edgepose

@@ -44,7 +44,9 @@ std::vector<std::string> fields_of(const std::string& line) {
 
 }  // namespace
 
-std::string trial_heading() { return kTrialHeading; }
+std::string trial_heading(const std::string& made_with) {
+  return "# " + one_line(made_with) + "\n" + kTrialHeading;
+}
 
 std::string trial_line(const ExperimentArm& arm, const TrialResult& r) {
   std::string end = one_line(r.end);
@@ -54,15 +56,19 @@ std::string trial_line(const ExperimentArm& arm, const TrialResult& r) {
          number(r.error.angle) + ";" + end + ";" + joined(r.distances) + ";" + joined(r.angles) + "\n";
 }
 
-std::vector<ArmResults> read_trials(const std::filesystem::path& path,
+std::vector<ArmResults> read_trials(const std::filesystem::path& path, const std::string& made_with,
                                     const std::vector<ExperimentArm>& arms) {
   std::vector<ArmResults> results;
   for (const ExperimentArm& arm : arms) results.push_back({arm, {}});
   std::ifstream file(path);
   if (!file) return results;
-  std::string line;
-  if (!std::getline(file, line) || line + "\n" != kTrialHeading)
+  std::string made, line;
+  if (!std::getline(file, made) || !made.starts_with("# ") || !std::getline(file, line) ||
+      line + "\n" != kTrialHeading)
     throw InputError::at(path.string(), "trials of an earlier run", "another file",
+                         "name another folder, or remove it");
+  if (made != "# " + one_line(made_with))
+    throw InputError::at(path.string(), "trials made with " + one_line(made_with), made.substr(2),
                          "name another folder, or remove it");
   while (std::getline(file, line) && !file.eof()) {
     const std::vector<std::string> fields = fields_of(line);

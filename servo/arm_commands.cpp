@@ -100,7 +100,8 @@ void add_client_commands(CLI::App& app) {
   add(app, "stop", "Bring the arm to rest now. No emergency stop: use the one beside the arm",
       "the arm comes to rest");
   add(app, "reset", "Forget a stop, an arrival or a fault; arm comes next", "reset");
-  add(app, "homed", "Say that drives which have booted by themselves know their position again", "noted");
+  add(app, "homed",
+      "Say that drives which have booted by themselves, or have moved unseen, know their position", "noted");
   add(app, "status", "What the controller does", "");
 }
 

@@ -48,12 +48,23 @@ struct ExperimentCommand {
     options.arms = chosen;
   }
 
+  /// What trials of one file have in common.
+  std::string made_with() const {
+    const auto named = [](const std::filesystem::path& path) {
+      std::error_code missing;
+      return path.filename().string() + " (" + std::to_string(std::filesystem::file_size(path, missing)) +
+             " bytes)";
+    };
+    return "edgepose " EDGEPOSE_VERSION ", mesh " + named(cell.model) + ", plan " + named(cell.plan) +
+           ", target " + (cell.target.empty() ? "the first" : cell.target);
+  }
+
   void run() {
     choose_arms();
     const WorkCell work_cell = make_work_cell(cell);
     std::filesystem::create_directories(output);
     const std::filesystem::path file = output / "trials.csv";
-    std::vector<ArmResults> done = read_trials(file, options.arms);
+    std::vector<ArmResults> done = read_trials(file, made_with(), options.arms);
     for (ArmResults& arm : done)
       std::erase_if(arm.trials, [&](const TrialResult& trial) {
         return trial.seed < options.first_seed ||
@@ -63,8 +74,9 @@ struct ExperimentCommand {
     for (const ArmResults& arm : done) count += arm.trials.size();
     const size_t all = static_cast<size_t>(options.trials) * options.arms.size();
     if (count > 0) std::cerr << count << " of " << all << " trials are there already\n";
-    std::ofstream lines(file, count > 0 ? std::ios::app : std::ios::trunc);
-    if (count == 0) lines << trial_heading();
+    const bool is_new = !std::filesystem::exists(file);
+    std::ofstream lines(file, std::ios::app);
+    if (is_new) lines << trial_heading(made_with());
     if (!lines) throw InputError::at(file.string(), "a file that can be written", "none");
     const StopSignals signals;
     const auto note = [&](const ExperimentArm& arm, const TrialResult& result) {

@@ -1,5 +1,5 @@
-/// How late a loop of 5 ms that does nothing begins on each processor: what no program on the machine can be better than.
-/// Usage: edgepose_cycle_floor SECONDS
+/// How late a loop of 5 ms that does nothing begins on each processor: what no program on the machine can be
+/// better than. Usage: edgepose_cycle_floor SECONDS
 #include <sched.h>
 
 #include <cstdio>

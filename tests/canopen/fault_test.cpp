@@ -157,6 +157,64 @@ TEST(Fault, DriveThatRebootsInMotionMustBeHomed) {
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
 }
 
+void expect_homing_required(ArmOnWire& arm, size_t axis) {
+  ASSERT_TRUE(arm.master.reset(arm.now));
+  arm.until(MasterPhase::kReady);
+  arm.cycles_of(3);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kReady) << arm.master.fault_text();
+  for (size_t i = 0; i < kAxes; ++i) EXPECT_EQ(arm.master.state().axes[i].homed, i != axis) << i;
+  EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kHomingRequired);
+}
+
+TEST(Fault, DriveThatBootsBetweenCyclesMustBeHomed) {
+  ArmOnWire arm;
+  arm.enable_and_move();
+  arm.master.stop(arm.now);
+  arm.cycles_of(40);
+  arm.master_lives = false;
+  arm.drives[3]->provoke(Provocation::kReboot);
+  arm.cycles_of(200);
+  arm.master_lives = true;  // reset() finds it among what has come in between
+  expect_homing_required(arm, 3);
+}
+
+TEST(Fault, DriveThatHasLostItsPositionUnheardMustBeHomed) {
+  ArmOnWire arm;
+  arm.enable_and_move();
+  arm.wire.drop = [](const CanFrame&) { return true; };
+  arm.cycles_of(40);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kFault);
+  DriveOptions anew;  // its encoder counts from zero
+  anew.node = 5;
+  arm.drives[4] = std::make_unique<Drive>(arm.wire.port(), anew, arm.now);
+  arm.cycles_of(400);
+  arm.wire.drop = nullptr;
+  expect_homing_required(arm, 4);
+}
+
+TEST(Fault, DrivesThatHaveBrakedUnheardNeedNoHoming) {
+  ArmOnWire arm;
+  arm.enable_and_move(2.0);
+  arm.wire.drop = [](const CanFrame&) { return true; };
+  arm.cycles_of(100);
+  arm.wire.drop = nullptr;
+  ASSERT_TRUE(arm.master.reset(arm.now));
+  arm.until(MasterPhase::kReady);
+  arm.cycles_of(3);
+  EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
+}
+
+TEST(Fault, DriveThatBootsInTheSetUpMustBeHomed) {
+  ArmOnWire arm;
+  arm.set_up();
+  ASSERT_TRUE(arm.master.set_up(arm.now));
+  arm.cycles_of(30);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kSettingUp);
+  arm.drives[1]->provoke(Provocation::kReboot);
+  arm.until(MasterPhase::kFault);
+  expect_homing_required(arm, 1);
+}
+
 TEST(Fault, BusOffIsLatched) {
   ArmOnWire arm;
   arm.enable_and_move();
