@@ -8,15 +8,27 @@
 #include "daemon/real_time.h"
 
 namespace edgepose {
+namespace {
+
+/// A thread without priority is moved to where there is room.
+ptrdiff_t threads_of(const RealTime& real_time) {
+  const auto allowed = static_cast<ptrdiff_t>(allowed_processors().size());
+  if (real_time.priority == 0) return 1;
+  return std::max<ptrdiff_t>(1, std::min<ptrdiff_t>(real_time.processors, allowed));
+}
+
+}  // namespace
 
 ControlLoop::ControlLoop(std::unique_ptr<CanBus> bus,
                          const std::function<std::unique_ptr<ArmController>(CanBus&)>& make, PoseInbox& poses,
-                         double cycle, int rt_priority)
+                         double cycle, const RealTime& real_time)
     : bus_(std::move(bus), frames_),
       controller_(make(bus_)),
       poses_(poses),
       cycle_(cycle),
-      rt_priority_(rt_priority) {}
+      real_time_(real_time),
+      clock_(static_cast<int64_t>(cycle * 1e9)),
+      started_(threads_of(real_time) + 1) {}
 
 ControlLoop::~ControlLoop() { finish(0); }
 
@@ -38,8 +50,16 @@ bool ControlLoop::has_power(const ControlSample& sample) {
 }
 
 void ControlLoop::start() {
-  thread_ = std::thread([this] { run(); });
-  started_.wait(false);
+  if (real_time_.priority > 0) real_time_fault_ = lock_memory();
+  const ptrdiff_t count = threads_of(real_time_);
+  const std::vector<size_t> allowed = allowed_processors();
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    std::optional<size_t> processor;  // from the last on: the first serves most interrupts
+    if (count > 1) processor = allowed[allowed.size() - 1 - static_cast<size_t>(i)];
+    threads_.emplace_back([this, processor] { run(processor); });
+  }
+  clock_.begin();
+  started_.arrive_and_wait();
 }
 
 bool ControlLoop::post(const ArmRequest& request) {
@@ -58,7 +78,7 @@ std::optional<std::string> ControlLoop::take_answer() {
 }
 
 void ControlLoop::finish(double seconds) {
-  if (!thread_.joinable()) return;
+  if (threads_.empty()) return;
   stop_ = true;
   const auto pause = [&] { std::this_thread::sleep_for(std::chrono::duration<double>(cycle_)); };
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -69,7 +89,8 @@ void ControlLoop::finish(double seconds) {
     pause();
   }
   ending_ = true;
-  thread_.join();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
 }
 
 ControlSample ControlLoop::newest() const {
@@ -87,26 +108,31 @@ std::string ControlLoop::real_time_fault() const {
   return real_time_fault_;
 }
 
-void ControlLoop::run() {
-  if (rt_priority_ > 0) {
-    std::string fault = become_real_time(rt_priority_);
-    if (fault.empty()) fault = lock_memory();
+void ControlLoop::run(std::optional<size_t> processor) {
+  if (real_time_.priority > 0) {
+    std::string fault = become_real_time(real_time_.priority);
+    if (fault.empty() && processor) fault = stay_on(*processor);
     const std::scoped_lock lock(mutex_);
-    real_time_fault_ = std::move(fault);
+    if (!fault.empty()) real_time_fault_ = std::move(fault);
   }
-  started_ = true;
-  started_.notify_one();
-  CycleClock clock(static_cast<int64_t>(cycle_ * 1e9));
+  started_.arrive_and_wait();
+  CycleClock::Sleeper sleeper(clock_);
   while (!ending_) {
-    const int64_t deadline = clock.wait(times_);
+    const std::optional<int64_t> deadline = sleeper.wait();
+    if (!deadline) continue;
     const int64_t now = steady_ns();
-    serve_requests(now);
-    if (releasing_ && !controller_->is_moving(now)) controller_->release();
-    const ControlSample& sample = controller_->cycle(now, poses_.take_reading());
-    samples_.push(sample);
-    show(sample);
-    times_.add(now - deadline, steady_ns() - now);
+    work(now);
+    times_.add(now - *deadline, steady_ns() - now);
+    clock_.done(times_);
   }
+}
+
+void ControlLoop::work(int64_t now_ns) {
+  serve_requests(now_ns);
+  if (releasing_ && !controller_->is_moving(now_ns)) controller_->release();
+  const ControlSample& sample = controller_->cycle(now_ns, poses_.take_reading());
+  samples_.push(sample);
+  show(sample);
 }
 
 void ControlLoop::serve_requests(int64_t now_ns) {

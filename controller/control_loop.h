@@ -1,35 +1,37 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <latch>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "bus/recorded_bus.h"
 #include "common/spsc_ring.h"
 #include "controller/arm_controller.h"
 #include "controller/cycle_clock.h"
 #include "controller/pose_inbox.h"
+#include "daemon/real_time.h"
 
 namespace edgepose {
 
-/// Runs an ArmController on a thread of its own, in real time. That thread never waits for another: poses and
-/// requests are left for it, samples and frames it leaves for others.
+/// Runs an ArmController in real time, on threads of its own of which one at a time works: it never waits for
+/// another, poses and requests are left for it, samples and frames it leaves for others.
 class ControlLoop {
  public:
   static constexpr size_t kSamples = 1 << 12, kFrames = 1 << 16;  // 20 s; 10 s of a full bus
 
-  /// `make`: makes the controller on the bus that it is given (bus and controller are used on the loop's
-  /// thread only). `rt_priority`: of SCHED_FIFO; 0: none.
+  /// `make`: makes the controller on the bus that it is given (bus and controller are used by the loop only).
   ControlLoop(std::unique_ptr<CanBus> bus, const std::function<std::unique_ptr<ArmController>(CanBus&)>& make,
-              PoseInbox& poses, double cycle, int rt_priority);
+              PoseInbox& poses, double cycle, const RealTime& real_time);
   ControlLoop(const ControlLoop&) = delete;
   ControlLoop& operator=(const ControlLoop&) = delete;
   ~ControlLoop();  ///< the arm must be at rest: see finish()
 
-  /// Returns when the thread runs and the system has said whether it is real-time.
+  /// Returns when it runs and the system has said whether it is real-time.
   void start();
   /// Leaves a request for the loop; false while another is worked on.
   bool post(const ArmRequest& request);
@@ -37,7 +39,7 @@ class ControlLoop {
   std::optional<std::string> take_answer();
   /// The controlled stop, in the next cycle.
   void stop() { stop_ = true; }
-  /// Stops the arm, waits until it is at rest without power (at most `seconds`), ends the thread.
+  /// Stops the arm, waits until it is at rest without power (at most `seconds`), ends the threads.
   void finish(double seconds);
 
   /// As of the last cycle, or the one before it.
@@ -51,7 +53,9 @@ class ControlLoop {
   SpscRing<CanFrame>& frames() { return frames_; }
 
  private:
-  void run();
+  /// A thread of the loop: one of those that wake for each cycle.
+  void run(std::optional<size_t> processor);
+  void work(int64_t now_ns);
   void serve_requests(int64_t now_ns);
   void show(const ControlSample& sample);
   static bool has_power(const ControlSample& sample);
@@ -62,10 +66,12 @@ class ControlLoop {
   std::unique_ptr<ArmController> controller_;
   PoseInbox& poses_;
   const double cycle_;
-  const int rt_priority_;
+  const RealTime real_time_;
   CycleTimes times_;
-  std::atomic<bool> stop_ = false, started_ = false, ending_ = false, releasing_ = false;
-  bool drops_request_ = false;  ///< of the loop's thread: a stop cancels what waits
+  CycleClock clock_;
+  std::latch started_;
+  std::atomic<bool> stop_ = false, ending_ = false, releasing_ = false;
+  bool drops_request_ = false;  ///< of whoever works: a stop cancels what waits
 
   mutable std::mutex mutex_;           // held for moments; the loop only tries
   std::optional<ArmRequest> request_;  // guarded by mutex_, as all below
@@ -73,7 +79,7 @@ class ControlLoop {
   std::optional<std::string> answer_;
   ControlSample newest_;
   std::string fault_text_, real_time_fault_;
-  std::thread thread_;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace edgepose

@@ -66,7 +66,7 @@ class Controller {
                                                      equipment_.camera_T_tool, options.servo,
                                                      master_options(options));
             },
-            poses_, options.servo.motion.cycle, options.rt_priority),
+            poses_, options.servo.motion.cycle, options.real_time),
         control_(loop_, poses_, facts(), [this] { signals_.end(); }),
         publisher_(address_),
         receiver_(address_, [this](ReceivedMessage&& message) {

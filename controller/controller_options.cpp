@@ -22,8 +22,10 @@ void ControllerOptions::check(const std::filesystem::path& file) const {
   constexpr std::array<const char*, 4> kLevels = {"debug", "info", "warning", "error"};
   if (std::find(kLevels.begin(), kLevels.end(), log_level) == kLevels.end())
     fail("controller.log_level: expected debug, info, warning or error, found '" + log_level + "'");
-  if (rt_priority < 0 || rt_priority > 99)
-    fail("controller.rt_priority: expected 0 to 99, found " + std::to_string(rt_priority));
+  if (real_time.priority < 0 || real_time.priority > 99)
+    fail("controller.rt_priority: expected 0 to 99, found " + std::to_string(real_time.priority));
+  if (real_time.processors < 1 || real_time.processors > 64)
+    fail("controller.rt_processors: expected 1 to 64, found " + std::to_string(real_time.processors));
   if (vendor > UINT32_MAX || product > UINT32_MAX)
     fail("drives.vendor, drives.product: expected 32 bits, found more");
   if (const std::string fault = servo.check(); !fault.empty()) fail(fault);
@@ -61,7 +63,8 @@ std::vector<SettingKey> controller_keys(ControllerOptions& o) {
           {"controller.log_level", &o.log_level},
           {"controller.capture", &o.capture},
           {"controller.log", &o.log},
-          {"controller.rt_priority", &o.rt_priority},
+          {"controller.rt_priority", &o.real_time.priority},
+          {"controller.rt_processors", &o.real_time.processors},
           {"controller.keep_awake", &o.keep_awake},
           {"motion.acceleration", &s.motion.acceleration},
           {"motion.jerk", &s.motion.jerk},

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "canopen/master_options.h"
+#include "daemon/real_time.h"
 #include "messaging/udpm_address.h"
 #include "servoing/servo.h"
 #include "settings/toml_keys.h"
@@ -23,7 +24,7 @@ struct ControllerOptions {
   std::string log_level = "info";        ///< debug, info, warning or error
   std::string capture;                   ///< every frame of the bus, as pcap; empty: none
   std::string log;                       ///< a line for every cycle, as CSV; empty: none
-  int rt_priority = 50;                  ///< of SCHED_FIFO, 1 to 99; 0: none
+  RealTime real_time;                    ///< of the control loop
   bool keep_awake = false;               ///< the processors never sleep (daemon/keep_awake.h)
   uint64_t vendor = DriveIdentity{}.vendor, product = DriveIdentity{}.product;  ///< 1018 of the drives
   ServoOptions servo;

@@ -2,6 +2,7 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "bus/steady_clock.h"
@@ -26,18 +27,26 @@ uint64_t CycleTimes::cycles() const {
   return all;
 }
 
-int64_t CycleClock::wait(CycleTimes& times) {
-  const int64_t now = steady_ns();
-  next_ns_ = next_ns_ == 0 ? now + period_ns_ : next_ns_ + period_ns_;
-  if (now > next_ns_) {
-    const int64_t missed = (now - next_ns_) / period_ns_ + 1;
-    times.add_missed(static_cast<uint64_t>(missed));
-    next_ns_ += missed * period_ns_;
-  }
-  timespec until{next_ns_ / 1'000'000'000, next_ns_ % 1'000'000'000};
+void CycleClock::begin() { next_ns_ = steady_ns() + period_ns_; }
+
+std::optional<int64_t> CycleClock::Sleeper::wait() {
+  // While another works on a deadline, it is still the next.
+  slept_until_ns_ = std::max(clock_.next_ns_.load(), slept_until_ns_ + clock_.period_ns_);
+  const timespec until{slept_until_ns_ / 1'000'000'000, slept_until_ns_ % 1'000'000'000};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
-  return next_ns_;
+  if (!clock_.working_.try_lock()) return std::nullopt;
+  const int64_t next = clock_.next_ns_;
+  if (next <= slept_until_ns_) return next;
+  clock_.working_.unlock();
+  return std::nullopt;
+}
+
+void CycleClock::done(CycleTimes& times) {
+  int64_t next = next_ns_ + period_ns_;
+  for (const int64_t now = steady_ns(); next < now; next += period_ns_) times.add_missed(now - next);
+  next_ns_ = next;
+  working_.unlock();
 }
 
 }  // namespace edgepose

@@ -2,6 +2,8 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <mutex>
+#include <optional>
 
 namespace edgepose {
 
@@ -15,12 +17,15 @@ class CycleTimes {
     count(took_, took_ns);
     if (late_ns > worst_.load(std::memory_order_relaxed)) worst_.store(late_ns, std::memory_order_relaxed);
   }
-  void add_missed(uint64_t cycles) { missed_.fetch_add(cycles, std::memory_order_relaxed); }
+  void add_missed(int64_t late_ns) {
+    missed_.fetch_add(1, std::memory_order_relaxed);
+    count(late_, late_ns);
+  }
 
   double late(double share) const { return quantile(late_, share); }  ///< [s] upper edge of the bin
   double took(double share) const { return quantile(took_, share); }  ///< [s]
   double worst_late() const { return 1e-9 * static_cast<double>(worst_.load(std::memory_order_relaxed)); }
-  uint64_t cycles() const;
+  uint64_t cycles() const;  ///< with those that were missed
   uint64_t missed() const { return missed_.load(std::memory_order_relaxed); }  ///< left out, being late
 
  private:
@@ -38,18 +43,36 @@ class CycleTimes {
   std::atomic<uint64_t> missed_ = 0;
 };
 
-/// Deadlines a period apart on the steady clock, from the first wait on; those that were missed are left out,
-/// never made up for in a burst.
+/// Deadlines a period apart on the steady clock, for threads on several processors: whichever is awake first
+/// does the work of a cycle, so that a processor that sleeps, or that a host has given to others, does not
+/// make it late. Deadlines that were missed are left out, never made up for in a burst.
 class CycleClock {
  public:
   explicit CycleClock(int64_t period_ns) : period_ns_(period_ns) {}
 
-  /// Sleeps until the next deadline and returns it [ns].
-  int64_t wait(CycleTimes& times);
+  /// The first deadline is a period from now. Before any thread sleeps.
+  void begin();
+
+  /// A thread's own sleep.
+  class Sleeper {
+   public:
+    explicit Sleeper(CycleClock& clock) : clock_(clock) {}
+    /// Sleeps until the next deadline. Returns it [ns] if this thread is to do the work, alone until it calls
+    /// done(); nothing if another does or has done it.
+    std::optional<int64_t> wait();
+
+   private:
+    CycleClock& clock_;
+    int64_t slept_until_ns_ = 0;
+  };
+
+  /// The cycle's work is done. Deadlines that went by meanwhile count as late ones, too.
+  void done(CycleTimes& times);
 
  private:
   const int64_t period_ns_;
-  int64_t next_ns_ = 0;
+  std::mutex working_;
+  std::atomic<int64_t> next_ns_ = 0;
 };
 
 }  // namespace edgepose

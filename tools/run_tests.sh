@@ -100,8 +100,6 @@ step "release tests"
 ctest --preset release -j 2
 
 if [ "$mode" = --long ]; then
-  step "the programs' faults, 20 times each: over a Unix bus, and on vcan0 in user-mode Linux"
-  export EDGEPOSE_FAULT_REPETITIONS=20
-  build/release/bin/arm_process_test --gtest_brief=1 --gtest_filter='ProcessFaults.*'
-  bash tests/can_vm/can_vm_test.sh build/release/bin build/release/can_vm
+  step "the arm's faults"
+  bash tools/soak_faults.sh 20
 fi

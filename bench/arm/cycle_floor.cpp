@@ -1,7 +1,5 @@
 /// How late a loop of 5 ms that does nothing begins on each processor: what no program on the machine can be
 /// better than. Usage: edgepose_cycle_floor SECONDS
-#include <sched.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -25,26 +23,24 @@ struct Processor {
   std::thread loop;
 
   void run(int64_t end_ns) {
-    cpu_set_t only;
-    CPU_ZERO(&only);
-    CPU_SET(number, &only);
-    sched_setaffinity(0, sizeof only, &only);
-    fault = become_real_time(kFirst);
+    fault = stay_on(number);
+    if (fault.empty()) fault = become_real_time(kFirst);
     CycleClock clock(kCycle);
+    clock.begin();
+    CycleClock::Sleeper sleeper(clock);
     while (steady_ns() < end_ns) {
-      const int64_t deadline = clock.wait(times);
-      times.add(steady_ns() - deadline, 0);
+      if (const auto deadline = sleeper.wait()) {
+        times.add(steady_ns() - *deadline, 0);
+        clock.done(times);
+      }
     }
   }
 };
 
 void measure(int64_t seconds) {
-  cpu_set_t allowed;
-  sched_getaffinity(0, sizeof allowed, &allowed);
   std::vector<std::unique_ptr<Processor>> processors;
   const int64_t end_ns = steady_ns() + seconds * kSecond;
-  for (size_t i = 0; i < CPU_SETSIZE; ++i) {
-    if (!CPU_ISSET(i, &allowed)) continue;
+  for (const size_t i : allowed_processors()) {
     Processor& one = *processors.emplace_back(std::make_unique<Processor>());
     one.number = i;
     one.loop = std::thread([&one, end_ns] { one.run(end_ns); });
