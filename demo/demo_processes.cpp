@@ -79,16 +79,27 @@ void DemoProcesses::start_service() {
 }
 
 void DemoProcesses::start_simulator() {
-  std::vector<std::string> arguments = {"--model",   options_.cell.model,
-                                        "--plan",    options_.cell.plan,
-                                        "--bus",     "unix:" + (folder_ / "bus").string(),
-                                        "--lcm-url", lcm_url_,
-                                        "--told",    folder_ / "told",
-                                        "--truth",   folder_ / "truth.csv",
-                                        "--control", simulator_.socket,
-                                        "--seed",    std::to_string(options_.seed),
-                                        "--noise",   options_.noise ? "paper" : "none",
-                                        "--rate",    std::to_string(options_.frame_rate)};
+  std::vector<std::string> arguments = {"--model",
+                                        options_.cell.model,
+                                        "--plan",
+                                        options_.cell.plan,
+                                        "--keep-awake",
+                                        "--bus",
+                                        "unix:" + (folder_ / "bus").string(),
+                                        "--lcm-url",
+                                        lcm_url_,
+                                        "--told",
+                                        folder_ / "told",
+                                        "--truth",
+                                        folder_ / "truth.csv",
+                                        "--control",
+                                        simulator_.socket,
+                                        "--seed",
+                                        std::to_string(options_.seed),
+                                        "--noise",
+                                        options_.noise ? "paper" : "none",
+                                        "--rate",
+                                        std::to_string(options_.frame_rate)};
   if (!options_.cell.target.empty()) arguments.insert(arguments.end(), {"--target", options_.cell.target});
   start(simulator_, arguments);
 }
