@@ -28,6 +28,7 @@ void DriveSetUp::begin(int64_t now_ns) {
   state_ = State::kRunning;
   at_ = 0;
   boot_ups_ = 0;
+  awaits_boot_up_ = true;
   duplicate_ = false;
   unasked_before_ = client_.unasked();
   error_.clear();
@@ -71,11 +72,14 @@ void DriveSetUp::send_nmt(NmtCommand command, int64_t now_ns) {
 }
 
 void DriveSetUp::take(const CanFrame& frame, int64_t now_ns) {
+  if (state_ == State::kDone && decode_heartbeat(frame) == NmtState::kBootUp)
+    return fail_duplicate("it booted again", now_ns);
   if (state_ != State::kRunning) return;
   if (frame.id == cob_id::kHeartbeat + node_) {
     const auto state = decode_heartbeat(frame);
     if (!state) return;
     last_heartbeat_ = *state;
+    if (*state == NmtState::kBootUp) awaits_boot_up_ = false;
     if (*state == NmtState::kBootUp && ++boot_ups_ > 1)
       return fail_duplicate(
           step().kind == SetUpStep::Kind::kSettle ? "two of them booted" : "it booted again", now_ns);

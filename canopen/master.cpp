@@ -71,11 +71,17 @@ void Master::drop_old_frames(int64_t now_ns) {
     if (received.kind == Received::Kind::kEvent) take_event(received.event, now_ns);
     if (received.kind != Received::Kind::kFrame) continue;
     const int8_t axis = axis_of_node_[static_cast<size_t>(cob_id::node_of(received.frame.id))];
-    if (axis >= 0 && decode_heartbeat(received.frame) == NmtState::kBootUp) lose_homing(axis);
+    if (axis >= 0 && decode_heartbeat(received.frame) == NmtState::kBootUp) see_boot_up(axis);
   }
 }
 
-/// It has booted while nobody watched: in a fault, or in the middle of the set-up.
+/// While nobody watches or sets up: who was not told to boot has lost its position.
+void Master::see_boot_up(int axis) {
+  DriveSetUp& set_up = *set_ups_[static_cast<size_t>(axis)];
+  if (!set_up.awaits_boot_up()) lose_homing(axis);
+  set_up.note_boot_up();
+}
+
 void Master::lose_homing(int axis) {
   monitors_[static_cast<size_t>(axis)].lose_homing();
   state_.axes[static_cast<size_t>(axis)].homed = monitors_[static_cast<size_t>(axis)].state().homed;
@@ -174,6 +180,8 @@ void Master::dispatch(const CanFrame& frame, int64_t now_ns) {
     set_ups_[static_cast<size_t>(axis)]->take(frame, now_ns);
   else if (communicating_)
     latch(monitors_[static_cast<size_t>(axis)].take(frame, now_ns));
+  else if (decode_heartbeat(frame) == NmtState::kBootUp)
+    see_boot_up(axis);
 }
 
 void Master::take_event(BusEvent event, int64_t now_ns) {
@@ -189,11 +197,11 @@ void Master::continue_set_up(int64_t now_ns) {
     one->tick(now_ns);
     all_done = all_done && one->state() == DriveSetUp::State::kDone;
     if (one->state() != DriveSetUp::State::kFailed) continue;
-    set_up_error_ = one->error();
     if (one->found_duplicate()) lose_homing(axis);
-    return latch(one->found_duplicate() ? FaultKind::kDuplicateNode : FaultKind::kSetUp, now_ns);
+    if (state_.phase != MasterPhase::kFault) set_up_error_ = one->error();
+    latch(one->found_duplicate() ? FaultKind::kDuplicateNode : FaultKind::kSetUp, now_ns);
   }
-  if (!all_done) return;
+  if (!all_done || state_.phase == MasterPhase::kFault) return;
   for (AxisMonitor& monitor : monitors_) monitor.begin(now_ns);
   communicating_ = true;
   // Requests that were put behind them have been answered: a queue that was thrown away took them along.

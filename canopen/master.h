@@ -91,6 +91,7 @@ class Master {
   void latch(FaultKind kind, int64_t now_ns, uint32_t found = 0);
   void begin_set_up(int64_t now_ns);
   void drop_old_frames(int64_t now_ns);
+  void see_boot_up(int axis);
   void lose_homing(int axis);
   void continue_set_up(int64_t now_ns);
   void judge(int64_t now_ns);

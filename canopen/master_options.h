@@ -33,8 +33,10 @@ struct MasterOptions {
   double master_heartbeat = 0.020, master_heartbeat_timeout = 0.060;
   /// The drive stops if no RPDO has come for this long (1400:05): three may be lost, and 2 ms late.
   double rpdo_timeout = 0.022;
-  int max_missed = 4;   ///< states in a row that an axis may fail to send; one more is a fault
-  int max_no_room = 3;  ///< cycles in a row in which the bus takes no frame until that is a fault
+  int max_missed = 4;  ///< states in a row that an axis may fail to send; one more is a fault
+  /// Cycles in a row in which the bus takes no frame, until that is a fault; or more than every third, for
+  /// long.
+  int max_no_room = 3;
   /// SYNCs that may still wait in the interface's queue when a cycle begins. If more do, nothing is put
   /// behind them, where it would be stale: a cycle without room. Known only of a bus that was asked to
   /// confirm them (open_bus(name, received_ids(), {cob_id::kSync})).

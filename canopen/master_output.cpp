@@ -82,9 +82,11 @@ void Master::produce(int64_t now_ns) {
   }
   if (took_frames_ || has_fault) sync_sent_ = put(sync_frame(now_ns));
   counters_.syncs += sync_sent_;
-  no_room_ = took_frames_ ? 0 : no_room_ + 1;
-  if (no_room_ >= options_.max_no_room)
-    latch(is_down_ ? FaultKind::kBusDown : FaultKind::kNoRoom, now_ns, static_cast<uint32_t>(no_room_));
+  // In a row, or again and again: one without room weighs as much as two with it.
+  no_room_ = took_frames_ ? std::max(0, no_room_ - 1) : no_room_ + 2;
+  if (no_room_ >= 2 * options_.max_no_room)
+    latch(is_down_ ? FaultKind::kBusDown : FaultKind::kNoRoom, now_ns,
+          static_cast<uint32_t>(options_.max_no_room));
 }
 
 bool Master::put(const CanFrame& frame) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "bus/steady_clock.h"
@@ -10,11 +11,15 @@
 namespace edgepose {
 namespace {
 
-/// A thread without priority is moved to where there is room.
-ptrdiff_t threads_of(const RealTime& real_time) {
-  const auto allowed = static_cast<ptrdiff_t>(allowed_processors().size());
-  if (real_time.priority == 0) return 1;
-  return std::max<ptrdiff_t>(1, std::min<ptrdiff_t>(real_time.processors, allowed));
+/// From the last on: the first serves most interrupts. A thread without priority is moved to where there is
+/// room.
+std::vector<size_t> processors_for(const RealTime& real_time) {
+  if (real_time.priority == 0 || real_time.processors < 2) return {};
+  std::vector<size_t> processors = allowed_processors();
+  std::reverse(processors.begin(), processors.end());
+  if (processors.size() > static_cast<size_t>(real_time.processors))
+    processors.resize(static_cast<size_t>(real_time.processors));
+  return processors;
 }
 
 }  // namespace
@@ -27,8 +32,9 @@ ControlLoop::ControlLoop(std::unique_ptr<CanBus> bus,
       poses_(poses),
       cycle_(cycle),
       real_time_(real_time),
+      processors_(processors_for(real_time)),
       clock_(static_cast<int64_t>(cycle * 1e9)),
-      started_(threads_of(real_time) + 1) {}
+      started_(static_cast<ptrdiff_t>(std::max<size_t>(processors_.size(), 1)) + 1) {}
 
 ControlLoop::~ControlLoop() { finish(0); }
 
@@ -50,14 +56,23 @@ bool ControlLoop::has_power(const ControlSample& sample) {
 }
 
 void ControlLoop::start() {
-  if (real_time_.priority > 0) real_time_fault_ = lock_memory();
-  const ptrdiff_t count = threads_of(real_time_);
-  const std::vector<size_t> allowed = allowed_processors();
-  for (ptrdiff_t i = 0; i < count; ++i) {
-    std::optional<size_t> processor;  // from the last on: the first serves most interrupts
-    if (count > 1) processor = allowed[allowed.size() - 1 - static_cast<size_t>(i)];
-    threads_.emplace_back([this, processor] { run(processor); });
+  const size_t count = std::max<size_t>(processors_.size(), 1);
+  try {
+    for (size_t i = 0; i < count; ++i) {
+      std::optional<size_t> processor;
+      if (!processors_.empty()) processor = processors_[i];
+      threads_.emplace_back([this, processor] { run(processor); });
+    }
+  } catch (const std::system_error&) {  // those that there are end
+    ending_ = true;
+    started_.count_down(static_cast<ptrdiff_t>(count - threads_.size()) + 1);
+    throw;
   }
+  if (real_time_.priority > 0)
+    if (std::string fault = lock_memory(); !fault.empty()) {
+      const std::scoped_lock lock(mutex_);
+      real_time_fault_ = std::move(fault);
+    }
   clock_.begin();
   started_.arrive_and_wait();
 }
@@ -122,7 +137,7 @@ void ControlLoop::run(std::optional<size_t> processor) {
     if (!deadline) continue;
     const int64_t now = steady_ns();
     work(now);
-    times_.add(now - *deadline, steady_ns() - now);
+    times_.add(now - *deadline, steady_ns() - *deadline);
     clock_.done(times_);
   }
 }

@@ -31,7 +31,8 @@ class ControlLoop {
   ControlLoop& operator=(const ControlLoop&) = delete;
   ~ControlLoop();  ///< the arm must be at rest: see finish()
 
-  /// Returns when it runs and the system has said whether it is real-time.
+  /// Once. Throws std::system_error if a thread cannot be made. Returns when it runs and the system has said
+  /// whether it is real-time.
   void start();
   /// Leaves a request for the loop; false while another is worked on.
   bool post(const ArmRequest& request);
@@ -67,6 +68,7 @@ class ControlLoop {
   PoseInbox& poses_;
   const double cycle_;
   const RealTime real_time_;
+  const std::vector<size_t> processors_;  ///< a thread on each; empty: one thread, anywhere
   CycleTimes times_;
   CycleClock clock_;
   std::latch started_;

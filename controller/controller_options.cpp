@@ -34,13 +34,6 @@ void ControllerOptions::check(const std::filesystem::path& file) const {
     MasterOptions checked = master;
     checked.cycle = servo.motion.cycle;
     checked.check();
-    // However patient: the drives stop within 0.1 s of the controller's end.
-    if (checked.rpdo_timeout < 2 * checked.cycle || checked.rpdo_timeout > 0.08)
-      throw std::invalid_argument("rpdo_timeout: expected two cycles to 0.08 s, found " +
-                                  std::to_string(checked.rpdo_timeout));
-    if (checked.max_missed > 15)
-      throw std::invalid_argument("max_missed: expected 1 to 15, found " +
-                                  std::to_string(checked.max_missed));
   } catch (const InputError& error) {
     fail(std::string("controller.lcm_url: ") + error.what());
   } catch (const std::invalid_argument& error) {
@@ -96,9 +89,7 @@ std::vector<SettingKey> controller_keys(ControllerOptions& o) {
           {"drives.product", &o.product},
           {"drives.counts_per_turn", &m.scale.counts_per_turn},
           {"drives.quick_stop_deceleration", &m.quick_stop_deceleration},
-          {"drives.following_window", &m.following_window},
-          {"drives.rpdo_timeout", &m.rpdo_timeout},
-          {"drives.max_missed", &m.max_missed}};
+          {"drives.following_window", &m.following_window}};
 }
 
 ControllerOptions read_controller_options(const std::filesystem::path& path) {

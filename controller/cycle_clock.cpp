@@ -35,7 +35,8 @@ std::optional<int64_t> CycleClock::Sleeper::wait() {
   const timespec until{slept_until_ns_ / 1'000'000'000, slept_until_ns_ % 1'000'000'000};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
-  if (!clock_.working_.try_lock()) return std::nullopt;
+  // Most often it has been worked on; only who may be the first goes for the lock.
+  if (clock_.next_ns_ > slept_until_ns_ || !clock_.working_.try_lock()) return std::nullopt;
   const int64_t next = clock_.next_ns_;
   if (next <= slept_until_ns_) return next;
   clock_.working_.unlock();

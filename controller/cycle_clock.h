@@ -7,23 +7,25 @@
 
 namespace edgepose {
 
-/// How late cycles began and how long they took, as counts in bins of 10 us. One thread adds; any reads.
+/// How long after their deadlines cycles began and ended, as counts in bins of 10 us. One thread adds; any
+/// reads.
 class CycleTimes {
  public:
   static constexpr int64_t kBinNs = 10'000;
 
-  void add(int64_t late_ns, int64_t took_ns) {
+  void add(int64_t late_ns, int64_t ended_ns) {
     count(late_, late_ns);
-    count(took_, took_ns);
+    count(ended_, ended_ns);
     if (late_ns > worst_.load(std::memory_order_relaxed)) worst_.store(late_ns, std::memory_order_relaxed);
   }
   void add_missed(int64_t late_ns) {
     missed_.fetch_add(1, std::memory_order_relaxed);
     count(late_, late_ns);
+    count(ended_, late_ns);
   }
 
-  double late(double share) const { return quantile(late_, share); }  ///< [s] upper edge of the bin
-  double took(double share) const { return quantile(took_, share); }  ///< [s]
+  double late(double share) const { return quantile(late_, share); }    ///< [s] upper edge of the bin
+  double ended(double share) const { return quantile(ended_, share); }  ///< [s] SYNC and set points are out
   double worst_late() const { return 1e-9 * static_cast<double>(worst_.load(std::memory_order_relaxed)); }
   uint64_t cycles() const;  ///< with those that were missed
   uint64_t missed() const { return missed_.load(std::memory_order_relaxed); }  ///< left out, being late
@@ -38,7 +40,7 @@ class CycleTimes {
   }
   static double quantile(const Bins& bins, double share);
 
-  Bins late_{}, took_{};
+  Bins late_{}, ended_{};
   std::atomic<int64_t> worst_ = 0;
   std::atomic<uint64_t> missed_ = 0;
 };

@@ -153,7 +153,7 @@ std::string ServoControl::status() const {
                   {"late_p50_s", times.late(0.5)},
                   {"late_p99.9_s", times.late(0.999)},
                   {"late_worst_s", times.worst_late()},
-                  {"took_p99.9_s", times.took(0.999)},
+                  {"ended_p99.9_s", times.ended(0.999)},
                   {"not_real_time", loop_.real_time_fault()}});
 }
 

@@ -3,6 +3,8 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <system_error>
+
 #include "daemon/real_time.h"
 
 namespace edgepose {
@@ -17,13 +19,16 @@ bool give_way() {
 }  // namespace
 
 KeepAwake::KeepAwake() {
-  for (const size_t processor : allowed_processors())
-    threads_.emplace_back([this, processor] {
-      if (!stay_on(processor).empty() || !give_way()) return;
-      // No pause instruction: a host takes it for a sign that the processor can be given away.
-      while (!ending_.load(std::memory_order_relaxed)) {
-      }
-    });
+  const auto stay_awake = [this](size_t processor) {
+    if (!stay_on(processor).empty() || !give_way()) return;
+    // No pause instruction: a host takes it for a sign that the processor can be given away.
+    while (!ending_.load(std::memory_order_relaxed)) {
+    }
+  };
+  try {
+    for (const size_t processor : allowed_processors()) threads_.emplace_back(stay_awake, processor);
+  } catch (const std::system_error&) {  // no more threads: those that there are do
+  }
 }
 
 KeepAwake::~KeepAwake() {

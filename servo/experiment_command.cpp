@@ -29,6 +29,23 @@ std::string utc_date() {
   return text;
 }
 
+bool ends_with_a_line(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (file.tellg() <= 0) return true;
+  file.seekg(-1, std::ios::end);
+  return file.get() == '\n';
+}
+
+/// FNV-1a, 64 bits: tells contents apart that were changed, not those that were forged.
+std::string checksum(const std::filesystem::path& path) {
+  uint64_t sum = 0xcbf2'9ce4'8422'2325;
+  std::ifstream file(path, std::ios::binary);
+  for (char c = 0; file.get(c);) sum = (sum ^ static_cast<uint8_t>(c)) * 0x0000'0100'0000'01b3;
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
+  return text;
+}
+
 struct ExperimentCommand {
   WorkCellOptions cell;
   ExperimentOptions options;
@@ -51,9 +68,7 @@ struct ExperimentCommand {
   /// What trials of one file have in common.
   std::string made_with() const {
     const auto named = [](const std::filesystem::path& path) {
-      std::error_code missing;
-      return path.filename().string() + " (" + std::to_string(std::filesystem::file_size(path, missing)) +
-             " bytes)";
+      return path.filename().string() + " (" + checksum(path) + ")";
     };
     return "edgepose " EDGEPOSE_VERSION ", mesh " + named(cell.model) + ", plan " + named(cell.plan) +
            ", target " + (cell.target.empty() ? "the first" : cell.target);
@@ -76,7 +91,10 @@ struct ExperimentCommand {
     if (count > 0) std::cerr << count << " of " << all << " trials are there already\n";
     const bool is_new = !std::filesystem::exists(file);
     std::ofstream lines(file, std::ios::app);
-    if (is_new) lines << trial_heading(made_with());
+    if (is_new)
+      lines << trial_heading(made_with());
+    else if (!ends_with_a_line(file))  // cut short while it was written
+      lines << '\n';
     if (!lines) throw InputError::at(file.string(), "a file that can be written", "none");
     const StopSignals signals;
     const auto note = [&](const ExperimentArm& arm, const TrialResult& result) {

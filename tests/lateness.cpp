@@ -1,41 +1,42 @@
 #include "tests/lateness.h"
 
-#include <pthread.h>
 #include <time.h>
 
 #include <algorithm>
+
+#include "bus/steady_clock.h"
+#include "daemon/real_time.h"
 
 namespace edgepose::test {
 namespace {
 
 constexpr int64_t kPeriod = 5'000'000, kSecond = 1'000'000'000;  // [ns]
-
-int64_t steady() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecond + now.tv_nsec;
-}
+constexpr int kFirst = 90;                                       // priority
 
 }  // namespace
 
-Lateness::Lateness(int64_t& worst_ns) {
-  thread_ = std::thread([this, &worst_ns] {
-    for (int64_t next = steady(); !ending_;) {
-      next += kPeriod;
-      const timespec until{next / kSecond, next % kSecond};
-      clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
-      const int64_t now = steady();
-      worst_ns = std::max(worst_ns, now - next);
-      next = now;
-    }
-  });
-  const sched_param first{.sched_priority = 90};
-  pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &first);  // where it may
+Lateness::Lateness(int64_t& worst_ns) : worst_ns_(worst_ns) {
+  for (const size_t processor : allowed_processors())
+    threads_.emplace_back([this, processor] { watch(processor); });
 }
 
 Lateness::~Lateness() {
   ending_ = true;
-  thread_.join();
+  for (std::thread& thread : threads_) thread.join();
+  worst_ns_ = std::max<int64_t>(worst_ns_, latest_ns_);
+}
+
+void Lateness::watch(size_t processor) {
+  if (!stay_on(processor).empty() || !become_real_time(kFirst).empty()) return;
+  for (int64_t next = steady_ns(); !ending_;) {
+    next += kPeriod;
+    const timespec until{next / kSecond, next % kSecond};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+    const int64_t now = steady_ns();
+    for (int64_t latest = latest_ns_; now - next > latest;)
+      if (latest_ns_.compare_exchange_weak(latest, now - next)) break;
+    next = now;
+  }
 }
 
 }  // namespace edgepose::test

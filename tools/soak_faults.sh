@@ -12,7 +12,14 @@ failed=0
 part() { # what, command...
   printf '\n== %s, %d times each\n' "$1" "$EDGEPOSE_FAULT_REPETITIONS"
   shift
-  "$@" || failed=1
+  local log
+  log=$(mktemp)
+  "$@" 2>&1 | tee "$log" || failed=1
+  if grep -q '^\[  SKIPPED \]' "$log"; then
+    echo "soak_faults.sh: tests were skipped" >&2
+    failed=1
+  fi
+  rm -f "$log"
 }
 part "in simulated time" "$bin/controller_test" --gtest_brief=1 --gtest_filter='Faults.*:*Wrong*'
 part "programs, Unix bus" "$bin/arm_process_test" --gtest_brief=1 --gtest_filter='ProcessFaults.*'

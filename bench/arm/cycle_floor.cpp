@@ -1,13 +1,14 @@
-/// How late a loop of 5 ms that does nothing begins on each processor: what no program on the machine can be
-/// better than. Usage: edgepose_cycle_floor SECONDS
+/// How late loops of 5 ms that do nothing begin, one on each processor, and whichever of them is the first:
+/// what the machine allows. In milliseconds. Usage: edgepose_cycle_floor SECONDS
+#include <time.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <thread>
 #include <vector>
 
 #include "bus/steady_clock.h"
-#include "controller/cycle_clock.h"
 #include "daemon/real_time.h"
 
 namespace edgepose {
@@ -16,41 +17,46 @@ namespace {
 constexpr int64_t kCycle = 5'000'000, kSecond = 1'000'000'000;  // [ns]
 constexpr int kFirst = 80;                                      // priority: before all of the programs
 
-struct Processor {
-  size_t number = 0;
-  CycleTimes times;
-  std::string fault;
-  std::thread loop;
+/// [ns] by which each cycle began late.
+using Lateness = std::vector<int64_t>;
 
-  void run(int64_t end_ns) {
-    fault = stay_on(number);
-    if (fault.empty()) fault = become_real_time(kFirst);
-    CycleClock clock(kCycle);
-    clock.begin();
-    CycleClock::Sleeper sleeper(clock);
-    while (steady_ns() < end_ns) {
-      if (const auto deadline = sleeper.wait()) {
-        times.add(steady_ns() - *deadline, 0);
-        clock.done(times);
-      }
-    }
+void run(size_t processor, int64_t begin_ns, Lateness& late, std::string& fault) {
+  fault = stay_on(processor);
+  if (fault.empty()) fault = become_real_time(kFirst);
+  for (size_t i = 0; i < late.size(); ++i) {
+    const int64_t deadline = begin_ns + static_cast<int64_t>(i) * kCycle;
+    const timespec until{deadline / kSecond, deadline % kSecond};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+    late[i] = steady_ns() - deadline;
   }
-};
+}
+
+void print(const std::string& what, Lateness late, const std::string& fault) {
+  std::sort(late.begin(), late.end());
+  const auto ms = [&](double share) {
+    return 1e-6 *
+           static_cast<double>(late[static_cast<size_t>(share * static_cast<double>(late.size() - 1))]);
+  };
+  std::printf("%s p50 %.3f p99.9 %.3f worst %.3f %s\n", what.c_str(), ms(0.5), ms(0.999), ms(1),
+              fault.c_str());
+}
 
 void measure(int64_t seconds) {
-  std::vector<std::unique_ptr<Processor>> processors;
-  const int64_t end_ns = steady_ns() + seconds * kSecond;
-  for (const size_t i : allowed_processors()) {
-    Processor& one = *processors.emplace_back(std::make_unique<Processor>());
-    one.number = i;
-    one.loop = std::thread([&one, end_ns] { one.run(end_ns); });
-  }
-  for (const auto& one : processors) {
-    one->loop.join();
-    std::printf("bare loop on processor %zu: late_p50_s %.6f late_p99.9_s %.6f late_worst_s %.6f %s\n",
-                one->number, one->times.late(0.5), one->times.late(0.999), one->times.worst_late(),
-                one->fault.c_str());
-  }
+  const std::vector<size_t> processors = allowed_processors();
+  std::vector<Lateness> late(processors.size(), Lateness(static_cast<size_t>(seconds * kSecond / kCycle)));
+  std::vector<std::string> faults(processors.size());
+  std::vector<std::thread> threads;
+  const int64_t begin_ns = steady_ns() + kSecond / 10;
+  for (size_t i = 0; i < processors.size(); ++i)
+    threads.emplace_back(run, processors[i], begin_ns, std::ref(late[i]), std::ref(faults[i]));
+  for (std::thread& thread : threads) thread.join();
+  Lateness first = late.front();
+  for (const Lateness& one : late)
+    std::transform(first.begin(), first.end(), one.begin(), first.begin(),
+                   [](int64_t a, int64_t b) { return std::min(a, b); });
+  print("first", first, faults.front());
+  for (size_t i = 0; i < processors.size(); ++i)
+    print("processor_" + std::to_string(processors[i]), late[i], faults[i]);
 }
 
 }  // namespace

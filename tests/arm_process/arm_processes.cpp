@@ -35,8 +35,6 @@ ArmProcesses::ArmProcesses(uint64_t seed, std::vector<std::string> sim, std::vec
                                       phantom / "drill_plan.json",
                                       "--bus",
                                       bus_,
-                                      "--publish",
-                                      "poses",
                                       "--noise",
                                       "none",
                                       "--seed",
@@ -49,6 +47,8 @@ ArmProcesses::ArmProcesses(uint64_t seed, std::vector<std::string> sim, std::vec
                                       path("sim.sock")};
   if (bus_.starts_with("unix:"))
     command.push_back("--keep-awake");  // a guest's processor is its host's to keep
+  if (std::find(sim.begin(), sim.end(), "--publish") == sim.end())
+    command.insert(command.end(), {"--publish", "poses"});
   command.insert(command.end(), sim.begin(), sim.end());
   simulator_ = std::make_unique<Process>(command, path("sim.log"));
   const bool serves = eventually(
@@ -142,10 +142,9 @@ std::vector<TruthLine> ArmProcesses::read_truth(int64_t from_ns) const {
   return lines;
 }
 
-std::filesystem::path write_patient_config(const Folder& folder) {
-  const std::filesystem::path path = folder / "patient.toml";
-  std::ofstream(path) << "[approach]\nstandoff = 0.03\n"  // [m] the shortest way at 5 mm/s
-                         "[drives]\nrpdo_timeout = 0.08\nmax_missed = 15\n";
+std::filesystem::path write_short_way(const Folder& folder) {
+  const std::filesystem::path path = folder / "servo.toml";
+  std::ofstream(path) << "[approach]\nstandoff = 0.03\n";
   return path;
 }
 

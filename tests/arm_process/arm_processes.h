@@ -66,8 +66,8 @@ class ArmProcesses {
   std::unique_ptr<Process> simulator_, controller_;
 };
 
-/// A configuration file in `folder` for what is not about time: it bears a machine that is late for 75 ms.
-std::filesystem::path write_patient_config(const Folder& folder);
+/// A configuration file in `folder` with the shortest way at the speed along the axis.
+std::filesystem::path write_short_way(const Folder& folder);
 
 /// [ns] on the steady clock.
 int64_t steady_now();

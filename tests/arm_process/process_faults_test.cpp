@@ -24,22 +24,22 @@ using testing::Le;
 
 bool at_rest(const TruthLine& line) { return line.fastest() < 1e-4; }
 
-constexpr int kPatience = 40;  // [ms] of lateness, which write_patient_config() bears
-
 class ProcessFaults : public testing::Test {
  protected:
   void SetUp() override {
     if (!enter_own_network())
       GTEST_SKIP() << "needs root or user namespaces, and ip (iproute2), for a network of its own";
   }
-  /// `trial` once more, if it failed while the machine was `limit` [ms] late or more.
-  static void in_real_time(const std::function<void()>& trial, int limit = 5) {
+  /// `trial` once more, if it failed while the machine was so late that a cycle or two were missed: drives
+  /// bear 22 ms, and the programs need some of it.
+  static void in_real_time(const std::function<void()>& trial) {
+    constexpr int64_t kLimit = 10'000'000;  // [ns]
     const auto timed = [&](int64_t& late_ns) {
       const Lateness lateness(late_ns);
       trial();
     };
     const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    edgepose::in_real_time(name, limit * int64_t{1'000'000}, timed, [] {});
+    edgepose::in_real_time(name, kLimit, timed, [] {});
   }
   /// As often as is asked for; what `trial` returns is added to the figures.
   static void repeat(const std::vector<Worst*>& figures,
@@ -56,26 +56,24 @@ class ProcessFaults : public testing::Test {
 
 TEST_F(ProcessFaults, ReachesTheHole) {
   const Folder folder;
-  in_real_time(
-      [&] {
-        ArmProcesses arm(1, {}, {"--config", write_patient_config(folder)});
-        arm.set_out();
-        EXPECT_EQ(arm.await_end(), "converged") << arm.log();
-        EXPECT_THAT(
-            [&] {
-              arm.servo("go", {{"target", "right_pedicle_screw"}});
-            },
-            testing::ThrowsMessage<std::runtime_error>(HasSubstr("go is refused while converged")));
-        arm.controller().signal(SIGTERM);
-        EXPECT_EQ(arm.controller().wait(10), 0);
-        const auto truth = arm.end_and_read_truth();
-        ASSERT_FALSE(truth.empty());
-        EXPECT_LT(std::hypot(truth.back().along, truth.back().across), 0.0003);
-        double fastest = 0;
-        for (const TruthLine& line : truth) fastest = std::max(fastest, line.tip_speed);
-        EXPECT_LT(fastest, 0.05);
-      },
-      kPatience);
+  in_real_time([&] {
+    ArmProcesses arm(1, {}, {"--config", write_short_way(folder)});
+    arm.set_out();
+    EXPECT_EQ(arm.await_end(), "converged") << arm.log();
+    EXPECT_THAT(
+        [&] {
+          arm.servo("go", {{"target", "right_pedicle_screw"}});
+        },
+        testing::ThrowsMessage<std::runtime_error>(HasSubstr("go is refused while converged")));
+    arm.controller().signal(SIGTERM);
+    EXPECT_EQ(arm.controller().wait(10), 0);
+    const auto truth = arm.end_and_read_truth();
+    ASSERT_FALSE(truth.empty());
+    EXPECT_LT(std::hypot(truth.back().along, truth.back().across), 0.0003);
+    double fastest = 0;
+    for (const TruthLine& line : truth) fastest = std::max(fastest, line.tip_speed);
+    EXPECT_LT(fastest, 0.05);
+  });
 }
 
 TEST_F(ProcessFaults, KilledWhileMoving) {
@@ -147,6 +145,29 @@ TEST_F(ProcessFaults, PosesEnd) {
   });
 }
 
+TEST_F(ProcessFaults, PoseServiceKilled) {
+  Worst rest("kill -9 of edgeposed: at rest, ms");
+  in_real_time([&] {
+    const Folder state;
+    Daemon service(state / "");
+    ASSERT_TRUE(service.ready()) << service.log();
+    const std::string phantom = EDGEPOSE_SOURCE_DIR "/models/phantom/";
+    service.result(
+        "models.register",
+        {{"name", "phantom"}, {"mesh", phantom + "phantom.ply"}, {"plan", phantom + "drill_plan.json"}});
+    ArmProcesses arm(1, {"--publish", "depth"}, {"--model", "phantom"});
+    arm.set_out();
+    service.process().signal(SIGKILL);
+    const int64_t killed = steady_now();
+    pause(2);
+    EXPECT_EQ(arm.state(), "approaching");
+    const auto truth = arm.end_and_read_truth();
+    const double to_rest = ms_until(truth, killed, at_rest);
+    EXPECT_THAT(to_rest, AllOf(testing::Gt(100), Le(1200))) << "it moved, and came to rest";
+    rest.add(to_rest);
+  });
+}
+
 TEST_F(ProcessFaults, WithAKeyOnlySignedPosesMoveIt) {
   Folder keys;
   SecretKey::random().write(keys / "key");
@@ -155,8 +176,16 @@ TEST_F(ProcessFaults, WithAKeyOnlySignedPosesMoveIt) {
     SCOPED_TRACE(wrong);
     in_real_time([&] {
       ArmProcesses arm(1, {"--key", key}, {"--key", key});
+      arm.sim("poses", {{"wrong", wrong}});
+      pause(1.2);  // the frame that shows the hole when go is said must be of the last second
       arm.servo("arm");
-      eventually([&] { return arm.servo("status")["poses_taken"] >= 3; });
+      EXPECT_THROW(arm.servo("go", {{"target", kHole}}), std::runtime_error) << "nothing genuine is seen";
+      pause(0.3);
+      const auto waiting = arm.read_truth();
+      for (const TruthLine& line : waiting)
+        for (int i = 0; i < 6; ++i) ASSERT_NEAR(line.q[i], waiting.front().q[i], 1e-4) << "rad";
+      arm.sim("poses", {{"wrong", "none"}});
+      EXPECT_TRUE(eventually([&] { return arm.servo("status")["poses_taken"] >= 3; }));
       arm.servo("go", {{"target", kHole}});
       arm.sim("poses", {{"wrong", wrong}});
       pause(1.2);
@@ -164,7 +193,7 @@ TEST_F(ProcessFaults, WithAKeyOnlySignedPosesMoveIt) {
       pause(0.5);
       EXPECT_GT(arm.servo("status")["messages"]["messages_" + wrong], 10);
       const auto truth = arm.end_and_read_truth();
-      EXPECT_GT(ms_until(truth, 0, at_rest), 0);
+      EXPECT_FALSE(truth.empty());
       for (const TruthLine& line : truth) ASSERT_TRUE(line.time_ns <= rests || at_rest(line));
     });
   }
@@ -193,22 +222,21 @@ TEST_F(ProcessFaults, AFullDiskDoesNotMatter) {
   if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
       mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=128k") != 0)
     GTEST_SKIP() << "no file system of its own on this machine: " << std::strerror(errno);
-  in_real_time(
-      [&] {
-        for (const char* name : {"arm.csv", "arm.pcap"}) std::filesystem::remove(disk + name);
-        ArmProcesses arm(1, {},
-                         {"--config", write_patient_config(configs), "--log", disk + "arm.csv", "--capture",
-                          disk + "arm.pcap"});
-        arm.set_out();
-        EXPECT_EQ(arm.await_end(), "converged") << arm.log();
-        EXPECT_THAT(arm.log(), HasSubstr("event=recording_lost"));
-        arm.controller().signal(SIGTERM);
-        EXPECT_EQ(arm.controller().wait(10), 0);
-        std::string line;
-        for (std::ifstream file(disk + "arm.csv"); std::getline(file, line);)
-          ASSERT_EQ(std::count(line.begin(), line.end(), ','), 39) << "a line that is not whole: " << line;
-      },
-      kPatience);
+  in_real_time([&] {
+    for (const char* name : {"arm.csv", "arm.pcap"}) std::filesystem::remove(disk + name);
+    ArmProcesses arm(
+        1, {},
+        {"--config", write_short_way(configs), "--log", disk + "arm.csv", "--capture", disk + "arm.pcap"});
+    arm.set_out();
+    EXPECT_EQ(arm.await_end(), "converged") << arm.log();
+    EXPECT_THAT(arm.log(), HasSubstr("event=recording_lost"));
+    EXPECT_LE(arm.servo("status")["cycles_missed"], 2) << "no cycle waits for the disk";
+    arm.controller().signal(SIGTERM);
+    EXPECT_EQ(arm.controller().wait(10), 0);
+    std::string line;
+    for (std::ifstream file(disk + "arm.csv"); std::getline(file, line);)
+      ASSERT_EQ(std::count(line.begin(), line.end(), ','), 39) << "a line that is not whole: " << line;
+  });
   umount2(disk.c_str(), MNT_DETACH);
 }
 

@@ -26,7 +26,7 @@ class ArmProcessFaults : public ArmInGuest {
   static std::vector<double> approach_and_end(ArmProcesses& arm) {
     std::vector<int64_t> steps;
     // Frames that are under way, of 0.4 s, are left out at each: less than it takes the arm to slow down.
-    for (const time_t step : {3600, -3600}) {
+    for (const time_t step : {3600, -7200, 3600}) {
       steps.push_back(steady_ns());
       set_clock(step);
       pause(0.7);
@@ -38,7 +38,7 @@ class ArmProcessFaults : public ArmInGuest {
     EXPECT_GT(least, 1e-3) << "rad/s: it goes on moving";
     EXPECT_EQ(arm.await_end(), "converged") << arm.log();
     const double refused = arm.servo("status")["poses_refused"];
-    EXPECT_LE(refused, 2) << "one that was under way at each step";
+    EXPECT_LE(refused, 3) << "one that was under way at each step";
     arm.controller().signal(SIGTERM);
     EXPECT_EQ(arm.controller().wait(10), 0) << arm.log();
     pause(0.2);  // the truth is written
@@ -59,14 +59,14 @@ TEST_F(ArmProcessFaults, ReachesTheHoleWhileTheClockIsSetByAnHour) {
     // Captured by the controller itself, from its start to its end.
     const Folder folder;
     const std::filesystem::path capture = folder / "session.pcap";
-    ArmProcesses& arm = moving_anew({"--capture", capture, "--config", write_patient_config(folder)});
+    ArmProcesses& arm = moving_anew({"--capture", capture, "--config", write_short_way(folder)});
     const Lateness lateness(late_ns);
     figures = approach_and_end(arm);
     std::filesystem::copy_file(capture, trace_file("arm_session.pcap"),
                                std::filesystem::copy_options::overwrite_existing);
   };
   for (int i = process_repetitions(1); i > 0 && !HasFailure(); --i) {
-    in_real_time("session", 5 * kMillisecond, session, [] {});
+    in_real_time("session", kBusy, session, [] {});
     if (HasFailure()) break;
     along.add(figures[0]), refused.add(figures[2]);
     std::printf("[measured] the fastest joint was never slower than %.1f mrad/s about the steps\n",

@@ -55,7 +55,7 @@ out=$(realpath "$out")
 [[ $out != *[$',\n']* ]] || { say "the folder's name must have no comma or line break: $out"; exit 2; }
 awake=()
 private=$(mktemp -d "$out/.vm_XXXXXX") # what guest and host tell each other
-trap 'kill "${awake[@]}" 2>/dev/null; rm -rf "$private"; [ "$keep" = yes ] || rm -rf "$out"' EXIT
+trap 'kill "${awake[@]}" 2>/dev/null || true; rm -rf "$private"; [ "$keep" = yes ] || rm -rf "$out"' EXIT
 
 {
   for name in $(compgen -e | grep -E '^(GTEST|EDGEPOSE)_' || true); do printf 'export %s=%q\n' "$name" "${!name}"; done

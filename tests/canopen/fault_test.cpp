@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "tests/canopen/arm_on_wire.h"
 
@@ -157,12 +158,12 @@ TEST(Fault, DriveThatRebootsInMotionMustBeHomed) {
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
 }
 
-void expect_homing_required(ArmOnWire& arm, size_t axis) {
+void expect_homing_required(ArmOnWire& arm, const std::set<size_t>& axes) {
   ASSERT_TRUE(arm.master.reset(arm.now));
   arm.until(MasterPhase::kReady);
   arm.cycles_of(3);
   ASSERT_EQ(arm.master.state().phase, MasterPhase::kReady) << arm.master.fault_text();
-  for (size_t i = 0; i < kAxes; ++i) EXPECT_EQ(arm.master.state().axes[i].homed, i != axis) << i;
+  for (size_t i = 0; i < kAxes; ++i) EXPECT_EQ(arm.master.state().axes[i].homed, !axes.contains(i)) << i;
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kHomingRequired);
 }
 
@@ -175,7 +176,7 @@ TEST(Fault, DriveThatBootsBetweenCyclesMustBeHomed) {
   arm.drives[3]->provoke(Provocation::kReboot);
   arm.cycles_of(200);
   arm.master_lives = true;  // reset() finds it among what has come in between
-  expect_homing_required(arm, 3);
+  expect_homing_required(arm, {3});
 }
 
 TEST(Fault, DriveThatHasLostItsPositionUnheardMustBeHomed) {
@@ -189,7 +190,7 @@ TEST(Fault, DriveThatHasLostItsPositionUnheardMustBeHomed) {
   arm.drives[4] = std::make_unique<Drive>(arm.wire.port(), anew, arm.now);
   arm.cycles_of(400);
   arm.wire.drop = nullptr;
-  expect_homing_required(arm, 4);
+  expect_homing_required(arm, {4});
 }
 
 TEST(Fault, DrivesThatHaveBrakedUnheardNeedNoHoming) {
@@ -212,7 +213,44 @@ TEST(Fault, DriveThatBootsInTheSetUpMustBeHomed) {
   ASSERT_EQ(arm.master.state().phase, MasterPhase::kSettingUp);
   arm.drives[1]->provoke(Provocation::kReboot);
   arm.until(MasterPhase::kFault);
-  expect_homing_required(arm, 1);
+  expect_homing_required(arm, {1});
+}
+
+TEST(Fault, AllDrivesThatLoseTheirSupplyInTheSetUpMustBeHomed) {
+  ArmOnWire arm;
+  arm.set_up();
+  ASSERT_TRUE(arm.master.set_up(arm.now));
+  arm.cycles_of(30);
+  for (const auto& drive : arm.drives) drive->provoke(Provocation::kReboot);
+  arm.until(MasterPhase::kFault);
+  arm.cycles_of(200);
+  expect_homing_required(arm, {0, 1, 2, 3, 4, 5});
+}
+
+TEST(Fault, DriveThatBootsAfterASetUpThatFailedMustBeHomed) {
+  ArmOnWire arm;
+  arm.set_up();
+  ASSERT_TRUE(arm.master.set_up(arm.now));
+  arm.wire.drop = [](const CanFrame& frame) { return frame.id == 0x582; };  // node 2 answers no SDO
+  arm.until(MasterPhase::kFault);
+  arm.wire.drop = nullptr;
+  arm.cycles_of(20);
+  arm.drives[5]->provoke(Provocation::kReboot);
+  arm.cycles_of(200);
+  expect_homing_required(arm, {5});
+}
+
+TEST(Fault, ASetUpThatFailedIsNoReasonToHome) {
+  ArmOnWire arm;
+  arm.set_up();
+  ASSERT_TRUE(arm.master.set_up(arm.now));
+  arm.master.stop(arm.now);  // before any has booted
+  arm.cycles_of(200);
+  ASSERT_EQ(arm.master.state().phase, MasterPhase::kFault);
+  ASSERT_TRUE(arm.master.reset(arm.now));
+  arm.until(MasterPhase::kReady);
+  arm.cycles_of(3);
+  EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
 }
 
 TEST(Fault, BusOffIsLatched) {
@@ -258,6 +296,23 @@ TEST(Fault, NoRoomThreeTimesStopsAndNothingStaleIsSent) {
   EXPECT_EQ(arm.master.fault_text(), "no room on the bus: no frame was taken for 3 cycles");
   arm.master_port.answer = SendResult::kSent;
   EXPECT_EQ(arm.cycles_to_quick_stop(), 1);
+}
+
+TEST(Fault, NoRoomAgainAndAgainStops) {
+  const auto cycles_with_room = [](ArmOnWire& arm, int with_room, int without, int rounds) {
+    for (int i = 0; i < rounds; ++i) {
+      arm.master_port.answer = SendResult::kNoRoom;
+      arm.move(0.5, without);
+      arm.master_port.answer = SendResult::kSent;
+      arm.move(0.5, with_room);
+    }
+  };
+  ArmOnWire arm;
+  arm.enable_and_move();
+  cycles_with_room(arm, 2, 1, 30);
+  EXPECT_EQ(arm.master.state().phase, MasterPhase::kEnabled) << arm.master.fault_text();
+  cycles_with_room(arm, 1, 2, 4);
+  EXPECT_EQ(arm.master.fault().kind, FaultKind::kNoRoom);
 }
 
 TEST(Fault, AFullBusTakesNoHalfSetOfTargets) {

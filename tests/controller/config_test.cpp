@@ -55,9 +55,6 @@ TEST(ControllerConfig, NamesWhatIsWrong) {
               testing::HasSubstr("rt_priority: expected 0 to 99"));
   EXPECT_THAT(fault_of("[drives]\ncounts_per_turn = 1.0"),
               testing::HasSubstr("drives.scale.counts_per_turn"));
-  EXPECT_THAT(fault_of("[drives]\nrpdo_timeout = 0.1"), testing::HasSubstr("drives.rpdo_timeout"));
-  EXPECT_THAT(fault_of("[drives]\nrpdo_timeout = 0.009"), testing::HasSubstr("drives.rpdo_timeout"));
-  EXPECT_THAT(fault_of("[drives]\nmax_missed = 16"), testing::HasSubstr("drives.max_missed"));
   EXPECT_THAT(fault_of("[controller]\nmodel = \"\""), testing::HasSubstr("controller.model"));
   EXPECT_THAT(fault_of("[controller]\nbus = 3"), testing::HasSubstr("s.toml:2"));
 }
