@@ -23,7 +23,8 @@ class ArmInGuest : public testing::Test {
   void SetUp() override;
 
   /// Runs `trial` with an arm on its way as often as is asked for, and adds what it returns to the figures
-  /// that it is measured by. Repeated if it failed while the machine was kBusy late or more.
+  /// that it is measured by. Repeated if it failed while the machine was kBusy late or more, or the
+  /// drives did not run for so long.
   void repeat(const std::string& name, const std::vector<Worst*>& figures,
               const std::function<std::vector<double>(ArmProcesses&, BusRecord&)>& trial);
   static ArmProcesses& arm() { return *arm_; }
