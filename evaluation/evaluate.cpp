@@ -159,6 +159,14 @@ Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& m
   return evaluation;
 }
 
+std::vector<TrainingFacts> facts_of(const std::vector<TrainedModel>& models) {
+  std::vector<TrainingFacts> facts;
+  for (const TrainedModel& m : models)
+    facts.push_back({m.object_id, m.model.diameter(), m.model.point_count(), m.model.pair_count(),
+                     m.model.block().size(), m.seconds});
+  return facts;
+}
+
 std::vector<BopResult> to_bop_results(const std::vector<EvalRow>& rows, bool only_accepted) {
   std::vector<BopResult> results;
   for (const EvalRow& row : rows) {

@@ -32,6 +32,15 @@ struct TrainedModel {
   double seconds = 0;  ///< wall time of the training
 };
 
+/// What a report says of a trained model.
+struct TrainingFacts {
+  int object_id = 0;
+  double diameter = 0;                      ///< [m]
+  size_t points = 0, pairs = 0, bytes = 0;  ///< of the table
+  double seconds = 0;
+};
+std::vector<TrainingFacts> facts_of(const std::vector<TrainedModel>& models);
+
 /// The answer to "where is this object in this image?".
 struct EvalRow {
   int scene_id = 0, image_id = 0, object_id = 0;

@@ -13,8 +13,8 @@ namespace edgepose {
 /// All that a report tells of one run.
 struct EvalReport {
   const TestSet& set;
-  const EvalOptions& options;
-  const std::vector<TrainedModel>& models;
+  bool all_models = false;  ///< was asked for every model in every image
+  const std::vector<TrainingFacts>& models;
   const Evaluation& evaluation;
   const Scores& scores;
   int group_modulo = 0;  ///< recall by image number modulo this; 0 = none

@@ -57,7 +57,7 @@ std::string figures_table(const EvalReport& report) {
   const Evaluation& run = report.evaluation;
   const double questions = static_cast<double>(std::max<size_t>(1, run.rows.size()));
   Table table({"figure", "value"});
-  if (report.options.all_models)
+  if (report.all_models)
     table.add(
         {"false positives: absent objects reported", share_of(scores.false_positives, scores.absent_pairs)});
   else
@@ -107,12 +107,10 @@ std::string training_table(const EvalReport& report) {
   Table table({"model", "diameter, mm", "points", "pairs", "table, MB", "training, s"});
   std::map<int, std::string> names;
   for (const TestObject& object : report.set.objects) names[object.id] = harmless_text(object.name);
-  for (const TrainedModel& trained : report.models) {
-    const Model& model = trained.model;
-    table.add({names[trained.object_id], fixed(1e3 * model.diameter(), 1), count_text(model.point_count()),
-               count_text(model.pair_count()), fixed(static_cast<double>(model.block().size()) / 1e6, 1),
-               fixed(trained.seconds, 2)});
-  }
+  for (const TrainingFacts& model : report.models)
+    table.add({names[model.object_id], fixed(1e3 * model.diameter, 1), count_text(model.points),
+               count_text(model.pairs), fixed(static_cast<double>(model.bytes) / 1e6, 1),
+               fixed(model.seconds, 2)});
   return table.markdown();
 }
 
@@ -120,7 +118,7 @@ std::string training_table(const EvalReport& report) {
 
 std::string result_tables(const EvalReport& report) {
   std::string text = "## Recall\n\n" + recall_table(report);
-  if (report.options.all_models) text += "\nOnly accepted poses count, as in the result file.\n";
+  if (report.all_models) text += "\nOnly accepted poses count, as in the result file.\n";
   if (report.group_modulo > 0) text.append("\n").append(group_table(report));
   text += "\n## Figures\n\n" + figures_table(report) + "\n## Time by stage\n\n" + stage_table(report) +
           "\n## Training\n\n" + training_table(report);

@@ -54,6 +54,11 @@ int JsonNode::integer() const {
   return static_cast<int>(value);
 }
 
+bool JsonNode::boolean() const {
+  if (!value_->is_boolean()) fail("true or false");
+  return value_->get<bool>();
+}
+
 std::string JsonNode::text() const {
   if (!value_->is_string()) fail("a text in quotes");
   return value_->get<std::string>();

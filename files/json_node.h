@@ -26,6 +26,7 @@ class JsonNode {
   double number() const;    ///< finite
   double positive() const;  ///< finite, at least 1e-6: whatever the unit, less is a mistake
   int integer() const;
+  bool boolean() const;
   std::string text() const;
   std::vector<double> numbers(size_t count) const;  ///< an array of exactly `count` finite numbers
 

@@ -5,6 +5,8 @@ foreach(reader camera bop_set bop_results drill_plan model_file)
   edgepose_fuzzer(${reader}_fuzz edgepose_files)
 endforeach()
 
+edgepose_fuzzer(shard_fuzz edgepose_evaluation)
+
 # The program's own, from its sources: without what else the program links.
 set(CLI ${PROJECT_SOURCE_DIR}/client/cli)
 find_package(nlohmann_json REQUIRED)

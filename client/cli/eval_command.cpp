@@ -6,8 +6,12 @@
 #include "client/cli/option_checks.h"
 #include "client/cli/progress_bar.h"
 #include "client/cli/set_input.h"
+#include "common/atomic_file.h"
+#include "common/error.h"
 #include "common/output_target.h"
 #include "evaluation/report.h"
+#include "evaluation/shard.h"
+#include "settings/matcher_settings.h"
 
 namespace edgepose {
 namespace {
@@ -16,19 +20,54 @@ constexpr const char* kEvalExamples = R"(Examples:
   edgepose eval data/range --results range.csv
   edgepose eval data/industrial --all-models --results found.csv --report report/
   edgepose eval data/spine --group-by-modulo 3 --images 0-8
+  edgepose eval data/spine --shard 2/8 --results part_2.shard    # on one of eight machines; then edgepose merge
 
 The result file has BOP's columns: scene_id,im_id,obj_id,score,R,t,time (R row-major, t in mm, time in s for
-that object in that image, its share of the preprocessing included).)";
+that object in that image, its share of the preprocessing included). With --shard I/N every Nth image is looked at,
+from the Ith on, and the result file is a shard, for edgepose merge.)";
 
 struct EvalCommand {
   SetInput input;
   std::filesystem::path results, report;
+  std::string shard;
   bool all_models = false, paper_mode = false;
   int group_modulo = 0;
 
   void run() const;
+  void run_shard(const TestSet& whole, const EvalOptions& options) const;
+  std::string made_with(const TestSet& set, const EvalOptions& options) const;
   std::string command_line() const;
 };
+
+/// Program, set and every option, in one line: what parts of one evaluation have in common.
+std::string EvalCommand::made_with(const TestSet& set, const EvalOptions& options) const {
+  std::string text =
+      "edgepose " EDGEPOSE_VERSION ", " + std::to_string(set.images.size()) + " images of " + set.name;
+  if (!input.images.empty()) text += " (" + input.images + ")";
+  for (const TestObject& object : set.objects) text += ", " + object.name;
+  if (all_models) text += ", all models";
+  Settings settings{options.train, options.scene, options.match};
+  for (const SettingKey& key : setting_keys(settings))
+    if (!key.path.ends_with(".threads")) text += "; " + key.path + "=" + to_toml(key);
+  return one_line(text);
+}
+
+void EvalCommand::run_shard(const TestSet& whole, const EvalOptions& options) const {
+  const TestSet set = take_shard(whole, parse_shard(shard));
+  const auto models = train_models(set, options, progress_bar("training"));
+  ShardRun run;
+  run.shard = parse_shard(shard);
+  run.made_with = made_with(whole, options);
+  run.folder = input.folder.string();
+  run.objects = input.objects;
+  run.images = input.images;
+  run.all_models = all_models;
+  run.models = facts_of(models);
+  run.evaluation = run_evaluation(set, models, options, progress_bar("evaluating"));
+  write_file_atomically(results, format_shard(run));
+  std::cout << "part " << shard << ": " << run.evaluation.rows.size() << " answers in " << set.images.size()
+            << " of " << whole.images.size() << " images, to " << results.string() << '\n';
+}
 
 std::string EvalCommand::command_line() const {
   std::string text = "edgepose eval " + input.command_line();
@@ -43,6 +82,13 @@ void EvalCommand::run() const {
   EvalOptions options = input.options();
   options.all_models = all_models;
   if (paper_mode) options.match.verification = Verification::kPaper;
+  if (!shard.empty()) {
+    if (results.empty()) throw InputError::at("--shard", "--results FILE for the shard", "none");
+    if (!report.empty() || group_modulo > 0)
+      throw InputError::at("--shard", "no --report or --group-by-modulo", "one", "edgepose merge has them");
+    check_output(results, input.files(set));
+    return run_shard(set, options);
+  }
   // Found out before the work, not after it.
   if (!report.empty()) check_output_folder(report);
   if (!results.empty()) check_output(results, input.files(set));
@@ -52,7 +98,8 @@ void EvalCommand::run() const {
   if (!results.empty()) write_bop_results(results, to_bop_results(evaluation.rows, all_models));
 
   const Scores scores = score_results(set, make_pose_errors(set), evaluation.rows, all_models);
-  const EvalReport told{set, options, models, evaluation, scores, group_modulo, command_line()};
+  const std::vector<TrainingFacts> facts = facts_of(models);
+  const EvalReport told{set, all_models, facts, evaluation, scores, group_modulo, command_line()};
   std::cout << result_tables(told);
   if (report.empty()) return;
   if (const std::string warning = write_report(told, report); !warning.empty())
@@ -74,6 +121,8 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("--group-by-modulo", command->group_modulo, "Recall also by image number modulo this")
       ->check(CLI::Range(1, 1000));
   add_output_option(*eval, "--report", command->report, "Folder for report.md and its plots (needs gnuplot)");
+  eval->add_option("--shard", command->shard,
+                   "I/N: only every Nth image, from the Ith on, to a file for edgepose merge");
   eval->footer(kEvalExamples);
   eval->callback([command] { command->run(); });
 }

@@ -19,6 +19,7 @@
 #include "client/cli/info_command.h"
 #include "client/cli/keygen_command.h"
 #include "client/cli/match_command.h"
+#include "client/cli/merge_command.h"
 #include "client/cli/models_command.h"
 #include "client/cli/record_command.h"
 #include "client/cli/render_command.h"
@@ -72,6 +73,7 @@ void add_commands(CLI::App& app) {
   add_info_command(app);
   add_match_command(app);
   add_eval_command(app);
+  add_merge_command(app);
   add_study_command(app);
   add_render_command(app);
   add_keygen_command(app);

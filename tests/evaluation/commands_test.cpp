@@ -50,6 +50,45 @@ TEST_F(Commands, EvalWritesOneRowForEachListedObject) {
   EXPECT_EQ(read_bop_results(results).size(), 3u);
 }
 
+/// The lines of a BOP result file without the times, which no two runs share.
+std::string without_times(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line, text;
+  while (std::getline(file, line)) text += line.substr(0, line.rfind(',')) + "\n";
+  return text;
+}
+
+TEST_F(Commands, ShardsMergedAreTheWholeRunBitForBit) {
+  for (const std::string options : {"", " --all-models"}) {
+    const auto file = [&](const std::string& name) { return "'" + (rendered.folder / name).string() + "'"; };
+    ASSERT_EQ(run("eval " + set + options + " --results " + file("whole.csv")).code, 0);
+    for (const std::string part : {"1", "2", "3"}) {
+      const Outcome outcome = run("eval " + set + options + " --threads " + part + " --shard " + part +
+                                  "/3 --results " + file("part_" + part + ".shard"));
+      ASSERT_EQ(outcome.code, 0) << outcome.text;
+    }
+    const std::string parts = " " + file("part_3.shard") + " " + file("part_1.shard");
+    const Outcome lacking = run("merge" + parts);
+    EXPECT_EQ(lacking.code, 2);
+    EXPECT_NE(lacking.text.find("no part 2"), std::string::npos) << lacking.text;
+    const Outcome merged =
+        run("merge" + parts + " " + file("part_2.shard") + " --results " + file("merged.csv"));
+    EXPECT_EQ(merged.code, 0) << merged.text;
+    EXPECT_NE(merged.text.find("MR, all instances pooled"), std::string::npos) << merged.text;
+    EXPECT_EQ(without_times(rendered.folder / "merged.csv"), without_times(rendered.folder / "whole.csv"));
+    EXPECT_GT(without_times(rendered.folder / "whole.csv").size(), 200u);
+  }
+}
+
+TEST_F(Commands, AWrongShardIsBadInput) {
+  for (const std::string wrong :
+       {"--shard 3/2 --results x", "--shard 1/2", "--shard 1/2 --results x --report y"}) {
+    const Outcome outcome = run("eval " + set + " " + wrong);
+    EXPECT_EQ(outcome.code, 2) << wrong;
+    EXPECT_NE(outcome.text.find("--shard"), std::string::npos) << outcome.text;
+  }
+}
+
 TEST_F(Commands, EvalOfAllModelsWritesWhatIsThere) {
   const auto results = rendered.folder / "out.csv";
   const Outcome outcome = run("eval " + set + " --all-models --results '" + results.string() + "'");

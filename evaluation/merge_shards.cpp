@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/error.h"
+#include "evaluation/shard.h"
+
+namespace edgepose {
+namespace {
+
+/// Each part once, all of one run.
+void check_parts(const std::vector<ShardRun>& parts, const std::vector<std::string>& names) {
+  if (parts.empty()) throw InputError::at("merge", "the shards of an evaluation", "none");
+  const ShardRun& first = parts.front();
+  std::map<int, std::string> seen;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const ShardRun& part = parts[i];
+    if (part.shard.count != first.shard.count)
+      throw InputError::at(names[i],
+                           "one of " + std::to_string(first.shard.count) + " parts, as " + names.front(),
+                           "one of " + std::to_string(part.shard.count));
+    if (part.made_with != first.made_with)
+      throw InputError::at(names[i], first.made_with + ", as " + names.front(), part.made_with,
+                           "all parts need the same program, set and options");
+    const auto [other, is_new] = seen.emplace(part.shard.index, names[i]);
+    if (!is_new)
+      throw InputError::at(names[i], "each part once",
+                           "part " + std::to_string(part.shard.index) + ", as " + other->second);
+  }
+  for (int index = 1; index <= first.shard.count; ++index)
+    if (!seen.contains(index))
+      throw InputError::at(
+          "merge", "all of " + std::to_string(first.shard.count) + " parts",
+          "no part " + std::to_string(index),
+          "edgepose eval ... --shard " + std::to_string(index) + "/" + std::to_string(first.shard.count));
+}
+
+using Question = std::tuple<int, int, int>;  // scene, image, object
+
+/// What a whole run asks, in its order.
+std::vector<Question> questions_of(const TestSet& set, bool all_models) {
+  std::vector<Question> questions;
+  for (const TestImage& image : set.images) {
+    std::set<int> listed;
+    for (const GroundTruth& truth : image.truth) listed.insert(truth.object_id);
+    for (const TestObject& object : set.objects)
+      if (all_models || listed.contains(object.id))
+        questions.emplace_back(image.scene_id, image.image_id, object.id);
+  }
+  return questions;
+}
+
+}  // namespace
+
+ShardRun merge_shards(const std::vector<ShardRun>& parts, const std::vector<std::string>& names,
+                      const TestSet& set) {
+  check_parts(parts, names);
+  ShardRun whole = parts.front();
+  whole.shard = {};
+  whole.evaluation = {};
+  std::map<Question, const EvalRow*> answers;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Evaluation& part = parts[i].evaluation;
+    whole.evaluation.wall_seconds += part.wall_seconds;
+    whole.evaluation.cpu_seconds += part.cpu_seconds;
+    whole.evaluation.peak_memory_megabytes =
+        std::max(whole.evaluation.peak_memory_megabytes, part.peak_memory_megabytes);
+    for (const EvalRow& row : part.rows)
+      if (!answers.emplace(Question{row.scene_id, row.image_id, row.object_id}, &row).second)
+        throw InputError::at(names[i], "one answer for each object in an image", "two",
+                             "scene " + std::to_string(row.scene_id) + ", image " +
+                                 std::to_string(row.image_id) + ", object " + std::to_string(row.object_id));
+  }
+  const std::vector<Question> questions = questions_of(set, whole.all_models);
+  for (const auto& [scene, image, object] : questions) {
+    const auto answer = answers.find({scene, image, object});
+    if (answer == answers.end())
+      throw InputError::at("merge",
+                           "an answer for object " + std::to_string(object) + " in image " +
+                               std::to_string(image) + " of scene " + std::to_string(scene),
+                           "none", "is this the test set of the shards?");
+    whole.evaluation.rows.push_back(*answer->second);
+  }
+  if (answers.size() != questions.size())
+    throw InputError::at("merge", std::to_string(questions.size()) + " answers, as the test set asks",
+                         std::to_string(answers.size()), "is this the test set of the shards?");
+  return whole;
+}
+
+}  // namespace edgepose
