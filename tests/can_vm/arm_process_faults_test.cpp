@@ -2,6 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <ctime>
+#include <fstream>
 
 #include "bus/steady_clock.h"
 #include "canopen/cob_id.h"
@@ -58,8 +59,10 @@ TEST_F(ArmProcessFaults, ReachesTheHoleWhileTheClockIsSetByAnHour) {
   const auto session = [&](int64_t& late_ns) {
     // Captured by the controller itself, from its start to its end.
     const Folder folder;
+    const std::filesystem::path config = folder / "slow.toml";  // under way for longer than the steps take
+    std::ofstream(config) << "[approach]\nstandoff = 0.03\nfree_speed = 0.02\n";
     const std::filesystem::path capture = folder / "session.pcap";
-    ArmProcesses& arm = moving_anew({"--capture", capture, "--config", write_short_way(folder)});
+    ArmProcesses& arm = moving_anew({"--capture", capture, "--config", config});
     const Lateness lateness(late_ns);
     figures = approach_and_end(arm);
     std::filesystem::copy_file(capture, trace_file("arm_session.pcap"),
