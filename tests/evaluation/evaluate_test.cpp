@@ -96,7 +96,7 @@ TEST_F(Evaluate, TheReportIsWritten) {
   const Scores scores = score_results(rendered->set, make_pose_errors(rendered->set), evaluation.rows);
   const std::filesystem::path folder = rendered->folder / "report";
   const std::string warning =
-      write_report({rendered->set, {}, models, evaluation, scores, 0, "edgepose eval"}, folder);
+      write_report({rendered->set, false, facts_of(models), evaluation, scores, 0, "edgepose eval"}, folder);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.md"));
   EXPECT_EQ(warning.empty(), gnuplot_available());
   if (warning.empty()) {

@@ -120,7 +120,8 @@ TEST(ReportTables, ShowWhatWasScored) {
   Evaluation evaluation;
   evaluation.rows = {answer(0, 1, 0.001), answer(1, 1, 0.003), answer(0, 2, 0.007), answer(1, 2, 0)};
   const Scores scores = score_results(set, tiny_errors(), evaluation.rows);
-  const std::string text = result_tables({set, options, {}, evaluation, scores, 2, "edgepose eval"});
+  const std::string text =
+      result_tables({set, options.all_models, {}, evaluation, scores, 2, "edgepose eval"});
   EXPECT_NE(text.find("| plain "), std::string::npos) << text;
   EXPECT_NE(text.find(" ADI' |"), std::string::npos) << text;
   EXPECT_NE(text.find("1 of 1 (100.00 %)"), std::string::npos) << "false positives\n" << text;
