@@ -161,6 +161,7 @@ Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& m
 
 std::vector<TrainingFacts> facts_of(const std::vector<TrainedModel>& models) {
   std::vector<TrainingFacts> facts;
+  facts.reserve(models.size());
   for (const TrainedModel& m : models)
     facts.push_back({m.object_id, m.model.diameter(), m.model.point_count(), m.model.pair_count(),
                      m.model.block().size(), m.seconds});

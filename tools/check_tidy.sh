@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs clang-tidy (.clang-tidy; every finding is an error) over the project's own sources, two units at a time.
-# Usage: tools/check_tidy.sh [--apart] [FOLDER...]     folders: common matcher messaging files settings planning reporting bus canopen arm servoing calibration render evaluation server client (all)
+# Usage: tools/check_tidy.sh [--apart] [FOLDER...]     folders: common matcher messaging files settings planning reporting bus canopen arm servoing calibration render evaluation daemon controller simulator experiment demo servo server client (all)
 #   --apart  each file for itself, as it is compiled; three times as long
 # Without it up to ten files of a folder are read as one unit: the Eigen and standard headers, which take nearly all
 # the time, are then gone through once for the ten. The checks are the same.
@@ -11,7 +11,7 @@ if [ "${1:-}" = --apart ]; then
   joined=OFF
   shift
 fi
-folders=("${@:-common matcher messaging files settings planning reporting bus canopen arm servoing calibration render evaluation server client}")
+folders=("${@:-common matcher messaging files settings planning reporting bus canopen arm servoing calibration render evaluation daemon controller simulator experiment demo servo server client}")
 read -ra folders <<<"${folders[*]}"
 
 # Only for the compile commands: nothing is built here but the headers that are made.
