@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <ctime>
 
@@ -16,6 +17,13 @@ int64_t steady_ns() {
 int64_t wall_minus_steady_ns() {
   using std::chrono::duration_cast, std::chrono::nanoseconds, std::chrono::system_clock;
   return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count() - steady_ns();
+}
+
+void sleep_until(int64_t deadline_ns) {
+  constexpr int64_t kSecond = 1'000'000'000;
+  const timespec until{deadline_ns / kSecond, deadline_ns % kSecond};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
 }
 
 bool wait_for_input(int descriptor, int64_t deadline_ns) {

@@ -28,7 +28,6 @@ void DriveSetUp::begin(int64_t now_ns) {
   state_ = State::kRunning;
   at_ = 0;
   boot_ups_ = 0;
-  awaits_boot_up_ = true;
   duplicate_ = false;
   unasked_before_ = client_.unasked();
   error_.clear();
@@ -79,7 +78,6 @@ void DriveSetUp::take(const CanFrame& frame, int64_t now_ns) {
     const auto state = decode_heartbeat(frame);
     if (!state) return;
     last_heartbeat_ = *state;
-    if (*state == NmtState::kBootUp) awaits_boot_up_ = false;
     if (*state == NmtState::kBootUp && ++boot_ups_ > 1)
       return fail_duplicate(
           step().kind == SetUpStep::Kind::kSettle ? "two of them booted" : "it booted again", now_ns);

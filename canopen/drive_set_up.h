@@ -24,9 +24,9 @@ class DriveSetUp {
   /// If it failed: the node, what was expected, what came, after how long.
   const std::string& error() const { return error_; }
   /// It was reset and has not booted yet.
-  bool awaits_boot_up() const { return awaits_boot_up_; }
+  bool awaits_boot_up() const { return state_ != State::kIdle && boot_ups_ == 0; }
   /// It has, although nobody sets it up any more.
-  void note_boot_up() { awaits_boot_up_ = false; }
+  void note_boot_up() { ++boot_ups_; }
   /// Two nodes have this number.
   bool found_duplicate() const { return duplicate_; }
 
@@ -50,7 +50,7 @@ class DriveSetUp {
   int boot_ups_ = 0;
   uint32_t unasked_before_ = 0;
   NmtState last_heartbeat_ = NmtState::kBootUp;
-  bool unsent_ = false, duplicate_ = false, awaits_boot_up_ = false;
+  bool unsent_ = false, duplicate_ = false;
   std::string error_;
 };
 

@@ -69,14 +69,14 @@ void Master::drop_old_frames(int64_t now_ns) {
     const Received received = bus_.receive(0);
     if (received.kind == Received::Kind::kNothing) return;
     if (received.kind == Received::Kind::kEvent) take_event(received.event, now_ns);
-    if (received.kind != Received::Kind::kFrame) continue;
-    const int8_t axis = axis_of_node_[static_cast<size_t>(cob_id::node_of(received.frame.id))];
-    if (axis >= 0 && decode_heartbeat(received.frame) == NmtState::kBootUp) see_boot_up(axis);
+    if (received.kind == Received::Kind::kFrame) take_unwatched(received.frame);
   }
 }
 
-/// While nobody watches or sets up: who was not told to boot has lost its position.
-void Master::see_boot_up(int axis) {
+/// While nobody watches or sets up, only boot-ups count: who was not told to boot has lost its position.
+void Master::take_unwatched(const CanFrame& frame) {
+  const int8_t axis = axis_of(frame);
+  if (axis < 0 || decode_heartbeat(frame) != NmtState::kBootUp) return;
   DriveSetUp& set_up = *set_ups_[static_cast<size_t>(axis)];
   if (!set_up.awaits_boot_up()) lose_homing(axis);
   set_up.note_boot_up();
@@ -173,15 +173,19 @@ void Master::take_frames(int64_t now_ns) {
   if (flooded_ >= 3) latch(FaultKind::kFlooded, now_ns, static_cast<uint32_t>(frames));
 }
 
+int8_t Master::axis_of(const CanFrame& frame) const {
+  return axis_of_node_[static_cast<size_t>(cob_id::node_of(frame.id))];
+}
+
 void Master::dispatch(const CanFrame& frame, int64_t now_ns) {
-  const int8_t axis = axis_of_node_[static_cast<size_t>(cob_id::node_of(frame.id))];
+  const int8_t axis = axis_of(frame);
   if (axis < 0) return;
   if (state_.phase == MasterPhase::kSettingUp)
     set_ups_[static_cast<size_t>(axis)]->take(frame, now_ns);
   else if (communicating_)
     latch(monitors_[static_cast<size_t>(axis)].take(frame, now_ns));
-  else if (decode_heartbeat(frame) == NmtState::kBootUp)
-    see_boot_up(axis);
+  else
+    take_unwatched(frame);
 }
 
 void Master::take_event(BusEvent event, int64_t now_ns) {

@@ -85,13 +85,14 @@ class Master {
 
  private:
   void take_frames(int64_t now_ns);
+  int8_t axis_of(const CanFrame& frame) const;  ///< -1: of no drive
   void dispatch(const CanFrame& frame, int64_t now_ns);
   void take_event(BusEvent event, int64_t now_ns);
   void latch(const Fault& fault);
   void latch(FaultKind kind, int64_t now_ns, uint32_t found = 0);
   void begin_set_up(int64_t now_ns);
   void drop_old_frames(int64_t now_ns);
-  void see_boot_up(int axis);
+  void take_unwatched(const CanFrame& frame);
   void lose_homing(int axis);
   void continue_set_up(int64_t now_ns);
   void judge(int64_t now_ns);

@@ -1,9 +1,6 @@
 #include "controller/cycle_clock.h"
 
-#include <time.h>
-
 #include <algorithm>
-#include <cerrno>
 
 #include "bus/steady_clock.h"
 
@@ -32,9 +29,7 @@ void CycleClock::begin() { next_ns_ = steady_ns() + period_ns_; }
 std::optional<int64_t> CycleClock::Sleeper::wait() {
   // While another works on a deadline, it is still the next.
   slept_until_ns_ = std::max(clock_.next_ns_.load(), slept_until_ns_ + clock_.period_ns_);
-  const timespec until{slept_until_ns_ / 1'000'000'000, slept_until_ns_ % 1'000'000'000};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
+  sleep_until(slept_until_ns_);
   // Most often it has been worked on; only who may be the first goes for the lock.
   if (clock_.next_ns_ > slept_until_ns_ || !clock_.working_.try_lock()) return std::nullopt;
   const int64_t next = clock_.next_ns_;

@@ -180,7 +180,7 @@ class Demo {
   const std::function<void(const std::string&)> say_;
   const WorkCell cell_;
   const ToldEquipment told_;
-  const PrivateFolder folder_;
+  const PrivateFolder folder_{"edgepose-demo-"};
   const std::string lcm_url_;
   FrameRecorder recorder_;
   std::vector<std::string> faults_;  ///< after which the arm was set going again

@@ -4,9 +4,9 @@
 #include <stop_token>
 #include <string>
 
+#include "common/private_folder.h"
 #include "demo/child_program.h"
 #include "demo/demo_options.h"
-#include "demo/private_folder.h"
 
 namespace edgepose {
 

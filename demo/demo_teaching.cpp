@@ -1,21 +1,11 @@
 #include "demo/demo_teaching.h"
 
-#include <ctime>
-
+#include "calibration/utc_now.h"
 #include "experiment/trial.h"
 #include "files/model_file.h"
 
 namespace edgepose {
 namespace {
-
-std::string now_in_utc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
 
 TaughtTool exact_tool(const WorkCell& cell) {
   TaughtTool tool;
@@ -37,7 +27,7 @@ ModelHandle service_model(const WorkCell& cell, const std::filesystem::path& fil
 TaughtFile make_goal(const WorkCell& cell, const ToldEquipment& told, const DemoOptions& options,
                      const std::filesystem::path& model_file,
                      const std::function<void(const std::string& progress)>& note) {
-  TaughtFile file{now_in_utc(), cell.plan.model, {}};
+  TaughtFile file{utc_now(), cell.plan.model, {}};
   if (options.goal == DemoGoal::kExact) {
     file.taught = exact_tool(cell);
     return file;

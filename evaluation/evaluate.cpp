@@ -1,7 +1,7 @@
 #include "evaluation/evaluate.h"
 
+#include <algorithm>
 #include <chrono>
-#include <set>
 #include <stdexcept>
 
 #include "common/error.h"
@@ -27,11 +27,9 @@ void require_sound(const EvalOptions& options) {
 /// The models to ask for in one image.
 std::vector<const TrainedModel*> models_for(const TestImage& image, const std::vector<TrainedModel>& models,
                                             bool all_models) {
-  std::set<int> listed;
-  for (const GroundTruth& truth : image.truth) listed.insert(truth.object_id);
   std::vector<const TrainedModel*> asked;
   for (const TrainedModel& model : models)
-    if (all_models || listed.count(model.object_id)) asked.push_back(&model);
+    if (is_asked(image, model.object_id, all_models)) asked.push_back(&model);
   return asked;
 }
 
@@ -141,6 +139,11 @@ std::vector<TrainedModel> train_models(const TestSet& set, const EvalOptions& op
   }
   if (progress) progress(1);
   return models;
+}
+
+bool is_asked(const TestImage& image, int object_id, bool all_models) {
+  return all_models || std::any_of(image.truth.begin(), image.truth.end(),
+                                   [&](const GroundTruth& truth) { return truth.object_id == object_id; });
 }
 
 Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& models,

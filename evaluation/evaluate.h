@@ -65,6 +65,9 @@ struct Evaluation {
 std::vector<TrainedModel> train_models(const TestSet& set, const EvalOptions& options,
                                        const Progress& progress = {});
 
+/// Whether an evaluation asks for this object in this image: those that the ground truth lists, or all.
+bool is_asked(const TestImage& image, int object_id, bool all_models);
+
 /// Asks `models` for their poses in the images of `set`. Models of one image share its preprocessing.
 /// Throws InputError if the options are unsound or an image cannot be read.
 Evaluation run_evaluation(const TestSet& set, const std::vector<TrainedModel>& models,

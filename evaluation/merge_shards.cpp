@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <map>
-#include <set>
+#include <tuple>
 
 #include "common/error.h"
 #include "evaluation/shard.h"
@@ -40,13 +40,10 @@ using Question = std::tuple<int, int, int>;  // scene, image, object
 /// What a whole run asks, in its order.
 std::vector<Question> questions_of(const TestSet& set, bool all_models) {
   std::vector<Question> questions;
-  for (const TestImage& image : set.images) {
-    std::set<int> listed;
-    for (const GroundTruth& truth : image.truth) listed.insert(truth.object_id);
+  for (const TestImage& image : set.images)
     for (const TestObject& object : set.objects)
-      if (all_models || listed.contains(object.id))
+      if (is_asked(image, object.id, all_models))
         questions.emplace_back(image.scene_id, image.image_id, object.id);
-  }
   return questions;
 }
 

@@ -79,7 +79,8 @@ struct ExperimentCommand {
     const WorkCell work_cell = make_work_cell(cell);
     std::filesystem::create_directories(output);
     const std::filesystem::path file = output / "trials.csv";
-    std::vector<ArmResults> done = read_trials(file, made_with(), options.arms);
+    const std::string origin = made_with();
+    std::vector<ArmResults> done = read_trials(file, origin, options.arms);
     for (ArmResults& arm : done)
       std::erase_if(arm.trials, [&](const TrialResult& trial) {
         return trial.seed < options.first_seed ||
@@ -92,7 +93,7 @@ struct ExperimentCommand {
     const bool is_new = !std::filesystem::exists(file);
     std::ofstream lines(file, std::ios::app);
     if (is_new)
-      lines << trial_heading(made_with());
+      lines << trial_heading(origin);
     else if (!ends_with_a_line(file))  // cut short while it was written
       lines << '\n';
     if (!lines) throw InputError::at(file.string(), "a file that can be written", "none");

@@ -1,9 +1,9 @@
 #include "simulator/simulation.h"
 
 #include <cstdio>
-#include <ctime>
 #include <optional>
 
+#include "calibration/utc_now.h"
 #include "common/error.h"
 #include "daemon/counters.h"
 #include "daemon/keep_awake.h"
@@ -15,15 +15,6 @@
 
 namespace edgepose {
 namespace {
-
-std::string now_as_text() {
-  const time_t now = time(nullptr);
-  tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
 
 SimulatedArmOptions arm_options(const WorkCell& cell, const DrillTarget& target,
                                 const SimulationOptions& options) {
@@ -44,7 +35,7 @@ class Simulation {
         told_(draw_told(cell_, options.noise ? ToldNoise{} : ToldNoise::none(), options.seed)),
         bus_(options.bus) {
     if (options.keep_awake) keep_awake_.emplace();
-    if (!options.told.empty()) write_told(options.told, told_, now_as_text());
+    if (!options.told.empty()) write_told(options.told, told_, utc_now());
     if (!options.truth.empty()) log_.emplace(options.truth, cell_, target_);
     drives_.emplace(bus_, arm_options(cell_, target_, options), log_ ? &*log_ : nullptr);
     publisher_.emplace(cell_, target_, told_, options, *drives_);

@@ -1,7 +1,5 @@
 #include "tests/lateness.h"
 
-#include <time.h>
-
 #include <algorithm>
 
 #include "bus/steady_clock.h"
@@ -10,8 +8,8 @@
 namespace edgepose::test {
 namespace {
 
-constexpr int64_t kPeriod = 5'000'000, kSecond = 1'000'000'000;  // [ns]
-constexpr int kFirst = 90;                                       // priority
+constexpr int64_t kPeriod = 5'000'000;  // [ns]
+constexpr int kFirst = 90;              // priority
 
 }  // namespace
 
@@ -30,8 +28,7 @@ void Lateness::watch(size_t processor) {
   if (!stay_on(processor).empty() || !become_real_time(kFirst).empty()) return;
   for (int64_t next = steady_ns(); !ending_;) {
     next += kPeriod;
-    const timespec until{next / kSecond, next % kSecond};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+    sleep_until(next);
     const int64_t now = steady_ns();
     for (int64_t latest = latest_ns_; now - next > latest;)
       if (latest_ns_.compare_exchange_weak(latest, now - next)) break;

@@ -1,7 +1,5 @@
 /// How late loops of 5 ms that do nothing begin, one on each processor, and whichever of them is the first:
 /// what the machine allows. In milliseconds. Usage: edgepose_cycle_floor SECONDS
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -25,8 +23,7 @@ void run(size_t processor, int64_t begin_ns, Lateness& late, std::string& fault)
   if (fault.empty()) fault = become_real_time(kFirst);
   for (size_t i = 0; i < late.size(); ++i) {
     const int64_t deadline = begin_ns + static_cast<int64_t>(i) * kCycle;
-    const timespec until{deadline / kSecond, deadline % kSecond};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+    sleep_until(deadline);
     late[i] = steady_ns() - deadline;
   }
 }

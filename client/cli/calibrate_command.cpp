@@ -1,6 +1,5 @@
 #include "client/cli/calibrate_command.h"
 
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "arm/rigid_motion.h"
 #include "calibration/hand_eye_file.h"
 #include "calibration/teach_file.h"
+#include "calibration/utc_now.h"
 #include "client/cli/option_checks.h"
 #include "client/cli/text.h"
 #include "common/error.h"
@@ -89,15 +89,6 @@ void teach_tool(const Files& files) {
 }
 
 }  // namespace
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  const size_t size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return {text, size};
-}
 
 void add_calibrate_command(CLI::App& app) {
   CLI::App* calibrate = app.add_subcommand("calibrate", "Calibrate what the arm is told of its equipment");

@@ -9,7 +9,4 @@ void add_calibrate_command(CLI::App& app);
 /// `edgepose teach RECORD -o FILE`: learns where the camera sees the tool.
 void add_teach_command(CLI::App& app);
 
-/// Now, as calibration files are dated: "2026-11-23T09:30:00Z".
-std::string utc_now();
-
 }  // namespace edgepose

@@ -3,13 +3,11 @@
 #include <iostream>
 #include <memory>
 
-#include "client/cli/option_checks.h"
+#include "client/cli/eval_output.h"
 #include "client/cli/progress_bar.h"
 #include "client/cli/set_input.h"
 #include "common/atomic_file.h"
 #include "common/error.h"
-#include "common/output_target.h"
-#include "evaluation/report.h"
 #include "evaluation/shard.h"
 #include "settings/matcher_settings.h"
 
@@ -28,10 +26,9 @@ from the Ith on, and the result file is a shard, for edgepose merge.)";
 
 struct EvalCommand {
   SetInput input;
-  std::filesystem::path results, report;
+  EvalOutput output;
   std::string shard;
   bool all_models = false, paper_mode = false;
-  int group_modulo = 0;
 
   void run() const;
   void run_shard(const TestSet& whole, const EvalOptions& options) const;
@@ -53,10 +50,14 @@ std::string EvalCommand::made_with(const TestSet& set, const EvalOptions& option
 }
 
 void EvalCommand::run_shard(const TestSet& whole, const EvalOptions& options) const {
-  const TestSet set = take_shard(whole, parse_shard(shard));
-  const auto models = train_models(set, options, progress_bar("training"));
+  if (output.results.empty()) throw InputError::at("--shard", "--results FILE for the shard", "none");
+  if (!output.report.empty() || output.group_modulo > 0)
+    throw InputError::at("--shard", "no --report or --group-by-modulo", "one", "edgepose merge has them");
+  output.check(input.files(whole));
   ShardRun run;
   run.shard = parse_shard(shard);
+  const TestSet set = take_shard(whole, run.shard);
+  const auto models = train_models(set, options, progress_bar("training"));
   run.made_with = made_with(whole, options);
   run.folder = input.folder.string();
   run.objects = input.objects;
@@ -64,16 +65,16 @@ void EvalCommand::run_shard(const TestSet& whole, const EvalOptions& options) co
   run.all_models = all_models;
   run.models = facts_of(models);
   run.evaluation = run_evaluation(set, models, options, progress_bar("evaluating"));
-  write_file_atomically(results, format_shard(run));
+  write_file_atomically(output.results, format_shard(run));
   std::cout << "part " << shard << ": " << run.evaluation.rows.size() << " answers in " << set.images.size()
-            << " of " << whole.images.size() << " images, to " << results.string() << '\n';
+            << " of " << whole.images.size() << " images, to " << output.results.string() << '\n';
 }
 
 std::string EvalCommand::command_line() const {
   std::string text = "edgepose eval " + input.command_line();
   if (all_models) text += " --all-models";
   if (paper_mode) text += " --paper-mode";
-  if (group_modulo > 0) text += " --group-by-modulo " + std::to_string(group_modulo);
+  if (output.group_modulo > 0) text += " --group-by-modulo " + std::to_string(output.group_modulo);
   return text;
 }
 
@@ -82,29 +83,12 @@ void EvalCommand::run() const {
   EvalOptions options = input.options();
   options.all_models = all_models;
   if (paper_mode) options.match.verification = Verification::kPaper;
-  if (!shard.empty()) {
-    if (results.empty()) throw InputError::at("--shard", "--results FILE for the shard", "none");
-    if (!report.empty() || group_modulo > 0)
-      throw InputError::at("--shard", "no --report or --group-by-modulo", "one", "edgepose merge has them");
-    check_output(results, input.files(set));
-    return run_shard(set, options);
-  }
-  // Found out before the work, not after it.
-  if (!report.empty()) check_output_folder(report);
-  if (!results.empty()) check_output(results, input.files(set));
+  if (!shard.empty()) return run_shard(set, options);
+  output.check(input.files(set));
 
   const auto models = train_models(set, options, progress_bar("training"));
   const Evaluation evaluation = run_evaluation(set, models, options, progress_bar("evaluating"));
-  if (!results.empty()) write_bop_results(results, to_bop_results(evaluation.rows, all_models));
-
-  const Scores scores = score_results(set, make_pose_errors(set), evaluation.rows, all_models);
-  const std::vector<TrainingFacts> facts = facts_of(models);
-  const EvalReport told{set, all_models, facts, evaluation, scores, group_modulo, command_line()};
-  std::cout << result_tables(told);
-  if (report.empty()) return;
-  if (const std::string warning = write_report(told, report); !warning.empty())
-    std::cerr << "edgepose: warning: " << warning << std::endl;
-  std::cout << "\nReport: " << (report / "report.md").string() << "\n";
+  output.write(set, evaluation, facts_of(models), all_models, command_line());
 }
 
 }  // namespace
@@ -114,13 +98,10 @@ void add_eval_command(CLI::App& app) {
   CLI::App* eval =
       app.add_subcommand("eval", "Find the objects of a test set in its images and score the poses");
   command->input.add_options(*eval);
-  add_output_option(*eval, "--results", command->results, "BOP result file (CSV) to write");
+  command->output.add_options(*eval);
   eval->add_flag("--all-models", command->all_models,
                  "Ask for every model in every image; write and count only accepted poses");
   eval->add_flag("--paper-mode", command->paper_mode, "Verify poses as the paper does; always gives a pose");
-  eval->add_option("--group-by-modulo", command->group_modulo, "Recall also by image number modulo this")
-      ->check(CLI::Range(1, 1000));
-  add_output_option(*eval, "--report", command->report, "Folder for report.md and its plots (needs gnuplot)");
   eval->add_option("--shard", command->shard,
                    "I/N: only every Nth image, from the Ith on, to a file for edgepose merge");
   eval->footer(kEvalExamples);

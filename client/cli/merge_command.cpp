@@ -1,13 +1,9 @@
 #include "client/cli/merge_command.h"
 
-#include <iostream>
 #include <memory>
 
-#include "client/cli/option_checks.h"
-#include "common/error.h"
-#include "common/output_target.h"
-#include "evaluation/report.h"
-#include "evaluation/selection.h"
+#include "client/cli/eval_output.h"
+#include "client/cli/set_input.h"
 #include "evaluation/shard.h"
 
 namespace edgepose {
@@ -23,8 +19,8 @@ Kubernetes job.)";
 
 struct MergeCommand {
   std::vector<std::filesystem::path> shards;
-  std::filesystem::path folder, results, report;
-  int group_modulo = 0;
+  std::filesystem::path folder;
+  EvalOutput output;
 
   void run() const;
 };
@@ -37,29 +33,16 @@ void MergeCommand::run() const {
     names.push_back(path.string());
   }
   const ShardRun& first = parts.front();
-  Selection selection;
-  selection.objects = first.objects;
-  if (!first.images.empty()) parse_images(first.images, selection);
-  const std::filesystem::path where = folder.empty() ? std::filesystem::path(first.folder) : folder;
-  const TestSet set = select(read_test_set(where), selection);
-  if (!report.empty()) check_output_folder(report);
-  if (!results.empty()) check_output(results, shards);
+  SetInput input;
+  input.folder = folder.empty() ? std::filesystem::path(first.folder) : folder;
+  input.objects = first.objects;
+  input.images = first.images;
+  const TestSet set = input.read();
+  output.check(shards);
 
   const ShardRun whole = merge_shards(parts, names, set);
-  if (!results.empty()) write_bop_results(results, to_bop_results(whole.evaluation.rows, whole.all_models));
-  const Scores scores = score_results(set, make_pose_errors(set), whole.evaluation.rows, whole.all_models);
-  const EvalReport told{set,
-                        whole.all_models,
-                        whole.models,
-                        whole.evaluation,
-                        scores,
-                        group_modulo,
-                        "edgepose merge, of " + std::to_string(parts.size()) + " parts"};
-  std::cout << result_tables(told);
-  if (report.empty()) return;
-  if (const std::string warning = write_report(told, report); !warning.empty())
-    std::cerr << "edgepose: warning: " << warning << std::endl;
-  std::cout << "\nReport: " << (report / "report.md").string() << "\n";
+  output.write(set, whole.evaluation, whole.models, whole.all_models,
+               "edgepose merge, of " + std::to_string(parts.size()) + " parts");
 }
 
 }  // namespace
@@ -70,11 +53,7 @@ void add_merge_command(CLI::App& app) {
   merge->add_option("SHARD", command->shards, "Files that edgepose eval --shard wrote, all parts")
       ->required();
   merge->add_option("--set", command->folder, "The test set, if it is elsewhere than the shards say");
-  add_output_option(*merge, "--results", command->results, "BOP result file (CSV) to write");
-  merge->add_option("--group-by-modulo", command->group_modulo, "Recall also by image number modulo this")
-      ->check(CLI::Range(1, 1000));
-  add_output_option(*merge, "--report", command->report,
-                    "Folder for report.md and its plots (needs gnuplot)");
+  command->output.add_options(*merge);
   merge->footer(kMergeExamples);
   merge->callback([command] { command->run(); });
 }

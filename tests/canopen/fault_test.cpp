@@ -158,10 +158,14 @@ TEST(Fault, DriveThatRebootsInMotionMustBeHomed) {
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
 }
 
-void expect_homing_required(ArmOnWire& arm, const std::set<size_t>& axes) {
+void reset_to_ready(ArmOnWire& arm) {
   ASSERT_TRUE(arm.master.reset(arm.now));
   arm.until(MasterPhase::kReady);
   arm.cycles_of(3);
+}
+
+void expect_homing_required(ArmOnWire& arm, const std::set<size_t>& axes) {
+  reset_to_ready(arm);
   ASSERT_EQ(arm.master.state().phase, MasterPhase::kReady) << arm.master.fault_text();
   for (size_t i = 0; i < kAxes; ++i) EXPECT_EQ(arm.master.state().axes[i].homed, !axes.contains(i)) << i;
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kHomingRequired);
@@ -199,9 +203,7 @@ TEST(Fault, DrivesThatHaveBrakedUnheardNeedNoHoming) {
   arm.wire.drop = [](const CanFrame&) { return true; };
   arm.cycles_of(100);
   arm.wire.drop = nullptr;
-  ASSERT_TRUE(arm.master.reset(arm.now));
-  arm.until(MasterPhase::kReady);
-  arm.cycles_of(3);
+  reset_to_ready(arm);
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
 }
 
@@ -247,9 +249,7 @@ TEST(Fault, ASetUpThatFailedIsNoReasonToHome) {
   arm.master.stop(arm.now);  // before any has booted
   arm.cycles_of(200);
   ASSERT_EQ(arm.master.state().phase, MasterPhase::kFault);
-  ASSERT_TRUE(arm.master.reset(arm.now));
-  arm.until(MasterPhase::kReady);
-  arm.cycles_of(3);
+  reset_to_ready(arm);
   EXPECT_EQ(arm.master.enable(arm.now), EnableResult::kBegun);
 }
 

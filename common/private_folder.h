@@ -12,13 +12,13 @@
 namespace edgepose {
 
 /// A folder for this user only, removed with all that is in it at the end. In /tmp whatever TMPDIR says,
-/// since the path of a Unix socket must be short.
+/// unless told otherwise: the path of a Unix socket must be short. Throws InputError if there is no room.
 class PrivateFolder {
  public:
-  PrivateFolder() {
-    std::string name = "/tmp/edgepose-demo-XXXXXX";
+  explicit PrivateFolder(const std::string& prefix, const std::filesystem::path& parent = "/tmp") {
+    std::string name = parent / (prefix + "XXXXXX");
     if (mkdtemp(name.data()) == nullptr)
-      throw InputError::at("/tmp", "room for a temporary folder", std::strerror(errno));
+      throw InputError::at(parent.string(), "room for a temporary folder", std::strerror(errno));
     path_ = name;
   }
   PrivateFolder(const PrivateFolder&) = delete;
