@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <utility>
 
 #include "matcher/clustering.h"
 #include "matcher/parallel.h"
@@ -12,6 +14,7 @@ namespace {
 
 // Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely, reported.
 constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500, kAllPoints = 1 << 20;
+constexpr float kRound = 75;  // references: what a sighting stands for in acceptance_score()
 constexpr float kLikeDistance = 0.02f, kLikeAngle = 0.05f;  // [d], [rad] poses closer than this are one
 
 /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
@@ -38,6 +41,16 @@ bool beyond_doubt(const Candidate& best, const SearchOptions& options) {
                      : best.sightings == 2 ? options.sure_twice
                                            : options.sure_thrice;
   return best.confidence > sure;
+}
+
+/// How many of `rounds` rounds of kRound references would lead to a candidate that `sightings` of the
+/// `looked` batches so far, of `batches` in all, have led to. acceptance_score() was fitted to such counts; a
+/// search that ends early must not make a pose look less likely for that.
+float expected_rounds(int sightings, size_t looked, size_t batches, float batch, float rounds) {
+  const auto seen = static_cast<float>(sightings), done = static_cast<float>(looked),
+             all = static_cast<float>(batches);
+  const float rate = (seen + (all - done) * seen / (done + 1)) / all;
+  return rounds * (1 - std::pow(1 - rate, kRound / batch));
 }
 
 /// Keeps the best `count` by score and as many more by surface; ranked.
@@ -81,25 +94,51 @@ CandidateSearch::CandidateSearch(const Scene::Data& scene, const Model& model,
 
 std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& references,
                                             MatchResult& result) const {
-  Stopwatch watch;
-  double seconds = 0;
+  const Stopwatch watch;
+  double last = 0;
   std::vector<Candidate> candidates;
   const auto size = static_cast<size_t>(options_.search.batch);
-  for (size_t begin = 0; begin < references.size(); begin += size) {
-    const size_t end = std::min(references.size(), begin + size);
+  const size_t batches = (references.size() + size - 1) / size;
+  size_t looked = 0;
+  while (looked < batches) {
+    const size_t begin = looked * size, end = std::min(references.size(), begin + size);
     add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(end)},
               candidates, result);
-    // More instances may come with more references.
-    if (options_.max_instances == 1 && !candidates.empty() &&
-        beyond_doubt(candidates.front(), options_.search))
-      break;
-    seconds += watch.lap();
-    if (options_.max_seconds > 0 && seconds >= options_.max_seconds && end < references.size()) {
+    ++looked;
+    if (ends_search(candidates)) break;
+    const double now = watch.total(), batch_seconds = now - std::exchange(last, now);
+    // What follows the search, one pose refined with all points, takes about as long as a batch.
+    if (options_.max_seconds > 0 && now + 2 * batch_seconds > options_.max_seconds && looked < batches) {
       result.cut_short = true;
       break;
     }
   }
+  count_rounds(candidates, looked, batches, references.size());
   return candidates;
+}
+
+bool CandidateSearch::ends_search(const std::vector<Candidate>& ranked) const {
+  // More instances may come with more references.
+  if (options_.max_instances != 1 || ranked.empty()) return false;
+  const Candidate& best = ranked.front();
+  if (beyond_doubt(best, options_.search)) return true;
+  const auto sightings = static_cast<float>(best.sightings);
+  if (best.sightings < 2) return false;
+  return std::none_of(ranked.begin() + 1, ranked.end(), [&](const Candidate& c) {
+    return sightings * (best.score - c.score) <= options_.search.settled &&
+           !comparison_.same_answer(best.pose, c.pose);
+  });
+}
+
+void CandidateSearch::count_rounds(std::vector<Candidate>& candidates, size_t looked, size_t batches,
+                                   size_t references) const {
+  const float batch = static_cast<float>(options_.search.batch),
+              rounds = std::ceil(static_cast<float>(references) / kRound);
+  for (Candidate& c : candidates) {
+    const float expected = expected_rounds(c.sightings, looked, batches, batch, rounds);
+    c.sightings = std::max(1, static_cast<int>(std::lround(expected)));
+    c.confidence = acceptance_score(c.evidence, settings(c.pose).full, c.sightings);
+  }
 }
 
 Candidate CandidateSearch::finish(const PoseF& pose, float votes, int sightings) const {

@@ -17,7 +17,7 @@ struct Candidate {
   float score = 0;       ///< orders candidates (rank_score)
   float surface = 0;     ///< orders them by how much surface there is
   float confidence = 0;  ///< [0, 1]
-  int sightings = 1;     ///< batches of references that led to it, each by itself
+  int sightings = 1;     ///< batches of references that led to it, each by itself; after run() rounds of 75
   IcpResult icp;
   FreeSpaceEvidence evidence;
 };
@@ -51,6 +51,11 @@ class CandidateSearch {
  private:
   void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& found,
                  MatchResult& result) const;
+  /// Whether the best candidate is beyond doubt, or clearly ahead of all others after several sightings.
+  bool ends_search(const std::vector<Candidate>& ranked) const;
+  /// Turns sightings in batches into the rounds of references that acceptance_score() knows.
+  void count_rounds(std::vector<Candidate>& candidates, size_t looked, size_t batches,
+                    size_t references) const;
   /// Adds what a batch found to what the batches before it did.
   void merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch) const;
   VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;

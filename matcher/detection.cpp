@@ -10,10 +10,8 @@
 namespace edgepose {
 namespace {
 
-constexpr int kCell = 6;            // pixels
-constexpr float kSameThing = 0.5f;  // share of common cells above which two poses explain the same thing
-constexpr float kDifferentDistance = 0.1f;  // [d] poses farther apart than this ...
-constexpr float kDifferentAngle = 0.26f;    // ... or turned by more than 15 degrees are clearly different
+constexpr int kCell = 6;              // pixels
+constexpr float kSameThing = 0.5f;    // share of common cells above which two poses explain the same thing
 constexpr double kCorrelation = 2;    // neighbouring pixels err together: this many count as one measurement
 constexpr double kLeastSigma = 1e-4;  // [d] no mesh is truer to its object than this
 
@@ -41,9 +39,8 @@ float best_rival(const std::vector<Candidate>& candidates, const std::vector<Pos
                  const PoseComparison& comparison) {
   float best = 0;
   for (const Candidate& c : candidates) {
-    const bool known = std::any_of(reported.begin(), reported.end(), [&](const PoseF& pose) {
-      return comparison.alike(pose, c.pose, kDifferentDistance, kDifferentAngle);
-    });
+    const bool known = std::any_of(reported.begin(), reported.end(),
+                                   [&](const PoseF& pose) { return comparison.same_answer(pose, c.pose); });
     if (!known) best = std::max(best, c.confidence);
   }
   return best;

@@ -14,6 +14,7 @@ constexpr float kJumpNoise = 6;         // ... and this many times the noise
 constexpr int kGap = 3;                 // pixels without measurement that a jump may hide in
 constexpr int kCreaseReach = 4;         // pixels on either side of a crease
 constexpr float kCreaseCosine = 0.87f;  // 30 degrees between the two sides
+constexpr int kRowsPerEdgeJob = 32;
 constexpr std::array<std::array<int, 2>, 4> kDirections = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 /// Depth at which the pixel's plane continues in the neighbouring pixel.
@@ -78,35 +79,95 @@ EdgeKind outline_kind(const Scene::Data& scene, int u, int v) {
   return kind;
 }
 
-bool is_crease(const Scene::Data& scene, int u, int v) {
-  constexpr std::array<std::array<int, 2>, 4> kAxes = {{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-  const float z = scene.depth[scene.index(u, v)];
-  const float reach = 4 * kCreaseReach * scene.pixel_size(z);
-  for (const auto& [du, dv] : kAxes) {
-    const int u1 = u + kCreaseReach * du, v1 = v + kCreaseReach * dv, u2 = u - kCreaseReach * du,
-              v2 = v - kCreaseReach * dv;
-    if (!scene.inside(u1, v1) || !scene.inside(u2, v2)) continue;
-    const size_t i1 = scene.index(u1, v1), i2 = scene.index(u2, v2);
-    if (scene.smooth_depth[i1] <= 0 || scene.smooth_depth[i2] <= 0) continue;
-    if (std::abs(scene.depth[i1] - z) > reach || std::abs(scene.depth[i2] - z) > reach) continue;
-    if (scene.normals[i1].dot(scene.normals[i2]) < kCreaseCosine) return true;
+/// Rows of the image whose normals stand apart by coordinate, so that pixels are compared side by side.
+class NormalRows {
+ public:
+  NormalRows(const Scene::Data& scene, int first, int last)
+      : first_(std::max(0, first)), width_(static_cast<size_t>(scene.width)) {
+    const int end = std::min(scene.height, last);
+    const size_t count = static_cast<size_t>(end - first_) * width_;
+    x_.resize(count), y_.resize(count), z_.resize(count);
+    const Eigen::Vector3f* normals = scene.normals.data() + scene.index(0, first_);
+    for (size_t i = 0; i < count; ++i) x_[i] = normals[i].x(), y_[i] = normals[i].y(), z_[i] = normals[i].z();
   }
-  return false;
+  struct Row {
+    const float *x, *y, *z;
+  };
+  Row row(int v) const {
+    const size_t at = static_cast<size_t>(v - first_) * width_;
+    return {x_.data() + at, y_.data() + at, z_.data() + at};
+  }
+
+ private:
+  int first_;
+  size_t width_;
+  std::vector<float> x_, y_, z_;
+};
+
+/// One side of a possible crease: a row of the image, shifted.
+struct Side {
+  const float *x, *y, *z;  // normals
+  const float *depth, *smooth_depth;
+};
+
+/// Marks the pixels whose two sides belong to the same surface and face different ways.
+EDGEPOSE_WIDE_SIMD void mark_creases(const float* depth, Side one, Side other, int first, int last,
+                                     float reach_for_depth, int32_t* marked) {
+  EDGEPOSE_NO_OVERLAP
+  for (int u = first; u < last; ++u) {
+    const float reach = reach_for_depth * depth[u];
+    const float cosine = one.x[u] * other.x[u] + one.y[u] * other.y[u] + one.z[u] * other.z[u];
+    int32_t crease = cosine < kCreaseCosine ? 1 : 0;
+    crease = one.smooth_depth[u] > 0 ? crease : 0;
+    crease = other.smooth_depth[u] > 0 ? crease : 0;
+    crease = std::abs(one.depth[u] - depth[u]) <= reach ? crease : 0;
+    crease = std::abs(other.depth[u] - depth[u]) <= reach ? crease : 0;
+    marked[u] |= crease;
+  }
+}
+
+/// For each pixel of row v whether the surface bends there, in any of four directions.
+void mark_crease_row(const Scene::Data& scene, const NormalRows& normals, int v,
+                     std::vector<int32_t>& marked) {
+  constexpr std::array<std::array<int, 2>, 4> kAxes = {{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+  std::fill(marked.begin(), marked.end(), 0);
+  for (const auto& [du, dv] : kAxes) {
+    const int shift = kCreaseReach * du, v1 = v + kCreaseReach * dv, v2 = v - kCreaseReach * dv;
+    if (std::min(v1, v2) < 0 || std::max(v1, v2) >= scene.height) continue;
+    const auto side = [&](int row, int shifted) -> Side {
+      const NormalRows::Row n = normals.row(row);
+      const size_t at = scene.index(0, row);
+      return {n.x + shifted, n.y + shifted, n.z + shifted, scene.depth.data() + at + shifted,
+              scene.smooth_depth.data() + at + shifted};
+    };
+    mark_creases(scene.depth.data() + scene.index(0, v), side(v1, shift), side(v2, -shift), shift,
+                 scene.width - shift, scene.pixel_size(4 * kCreaseReach), marked.data());
+  }
 }
 
 }  // namespace
 
 void detect_edges(Scene::Data& scene, int threads) {
-  scene.edges.assign(scene.depth.size(), EdgeKind::kNone);
-  parallel_for(static_cast<size_t>(scene.height), threads, [&](size_t row) {
-    const int v = static_cast<int>(row);
-    std::vector<uint8_t> marked(static_cast<size_t>(scene.width));
-    mark_row(scene, v, marked);
-    for (int u = 0; u < scene.width; ++u) {
-      const size_t at = scene.index(u, v);
-      if (scene.smooth_depth[at] <= 0) continue;
-      if (marked[u]) scene.edges[at] = outline_kind(scene, u, v);
-      if (scene.edges[at] == EdgeKind::kNone && is_crease(scene, u, v)) scene.edges[at] = EdgeKind::kCrease;
+  scene.edges.resize(scene.depth.size());
+  const size_t jobs = static_cast<size_t>((scene.height + kRowsPerEdgeJob - 1) / kRowsPerEdgeJob);
+  parallel_for(jobs, threads, [&](size_t job) {
+    const int first = static_cast<int>(job) * kRowsPerEdgeJob,
+              last = std::min(scene.height, first + kRowsPerEdgeJob);
+    const NormalRows normals(scene, first - kCreaseReach, last + kCreaseReach);
+    std::vector<uint8_t> stepped(static_cast<size_t>(scene.width));
+    std::vector<int32_t> creased(stepped.size());
+    for (int v = first; v < last; ++v) {
+      mark_row(scene, v, stepped);
+      mark_crease_row(scene, normals, v, creased);
+      for (int u = 0; u < scene.width; ++u) {
+        const size_t at = scene.index(u, v);
+        EdgeKind kind = EdgeKind::kNone;
+        if (scene.smooth_depth[at] > 0) {
+          if (stepped[u]) kind = outline_kind(scene, u, v);
+          if (kind == EdgeKind::kNone && creased[u]) kind = EdgeKind::kCrease;
+        }
+        scene.edges[at] = kind;
+      }
     }
   });
 }

@@ -25,7 +25,8 @@ struct Detection {
   double margin = 0;  ///< score minus the best score of a clearly different pose that is not reported itself;
                       ///< negative if that one has the higher score but explains less. Paper mode: the score
   double votes = 0;
-  int sightings = 1;  ///< batches of references that led to it, each by itself
+  int sightings =
+      1;  ///< rounds of 75 references that lead to it, each by itself; estimated if the search ended early
   /// Covariance of (rotation vector, translation) of a left perturbation exp(x) * camera_T_model about the
   /// model's centre; rad^2, rad m, m^2. From the ICP's normal equations.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();

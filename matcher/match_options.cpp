@@ -40,7 +40,8 @@ std::string SearchOptions::check() const {
        {"fine_candidates", static_cast<double>(fine_candidates), 1, static_cast<double>(coarse_candidates)},
        {"sure_once", sure_once, 0, 2},
        {"sure_twice", sure_twice, 0, 2},
-       {"sure_thrice", sure_thrice, 0, 2}});
+       {"sure_thrice", sure_thrice, 0, 2},
+       {"settled", settled, 0, 1e5}});
 }
 
 std::string ToleranceOptions::check() const {

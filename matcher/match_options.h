@@ -48,12 +48,14 @@ struct ClusteringOptions {
 
 /// How the default search goes through candidates; memory and results only depend on these and the seed.
 struct SearchOptions {
-  int batch = 75;              ///< references voted for before the next look at the candidates
+  int batch = 32;              ///< references voted for before the next look at the candidates
   int coarse_candidates = 20;  ///< of each batch that are refined coarsely: by rank, and as many by surface
   int fine_candidates = 4;     ///< of these that are refined finely, likewise
   float sure_once = 0.95f;     ///< [0, 1] a candidate surer than this ends the search; above 1: never
   float sure_twice = 0.85f;    ///< the same for one that two batches led to, each by itself
   float sure_thrice = 0.75f;   ///< the same for three and more
+  float settled = 8;  ///< the search also ends when two batches and more led to the best candidate and their
+                      ///< number times its lead over every other pose is more than this; large: never
 
   std::string check() const;
 };

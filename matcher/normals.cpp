@@ -14,8 +14,9 @@ namespace {
 constexpr std::array<int, 6> kOffsets = {-5, -3, -1, 1, 3, 5};  // pixels
 constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that still is one surface (72 degrees)
 constexpr int kMinNeighbours = 12;  // of 36
-constexpr int kRowsPerJob = 8;
-constexpr int kNoiseStride = 5;          // pixels between two whose residuals are looked at
+constexpr int kRowsPerJob = 16;
+constexpr int kNoiseStride = 5;          // pixels between two whose residuals are looked at, and
+constexpr int kNoiseRows = 4;            // rows: ten thousands of samples are plenty
 constexpr size_t kMinNoiseSamples = 50;  // in a range of depth
 constexpr float kCorrelated =
     2.5f;  // sensors smooth: neighbours differ by less than the error of the surface
@@ -52,20 +53,25 @@ struct RowSums {
 /// Inverse depth with a margin of pixels without measurement, so that no neighbour needs a bounds check.
 /// In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
 struct InverseDepth {
-  explicit InverseDepth(const Scene::Data& scene)
+  InverseDepth(const Scene::Data& scene, int threads)
       : stride(static_cast<size_t>(scene.width + 2 * kMargin)),
         values(stride * static_cast<size_t>(scene.height + 2 * kMargin), 0.f) {
-    for (int v = 0; v < scene.height; ++v) {
-      const float* depth = scene.depth.data() + scene.index(0, v);
-      float* out = values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
-      for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
-    }
+    parallel_for(static_cast<size_t>((scene.height + kRowsAtOnce - 1) / kRowsAtOnce), threads,
+                 [&](size_t job) {
+                   const int first = static_cast<int>(job) * kRowsAtOnce,
+                             last = std::min(scene.height, first + kRowsAtOnce);
+                   for (int v = first; v < last; ++v) {
+                     const float* depth = scene.depth.data() + scene.index(0, v);
+                     float* out = values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
+                     for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
+                   }
+                 });
   }
   const float* row(int v) const {
     return values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
   }
 
-  static constexpr int kMargin = kOffsets.back();
+  static constexpr int kMargin = kOffsets.back(), kRowsAtOnce = 64;
   size_t stride;
   std::vector<float> values;
 };
@@ -101,20 +107,18 @@ EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* othe
   }
 }
 
-/// The fitted planes of a row: normal times its length, depth at the pixel, residual [m] (negative: no fit).
+/// The fitted planes of a row: unit normal towards the camera, depth at the pixel [m], residual [m]
+/// (negative: no fit; then all else is zero).
 struct RowPlanes {
-  explicit RowPlanes(size_t width) : x(width), y(width), z(width), depth(width), residual(width) {}
-  std::vector<float> x, y, z, depth, residual;
+  float *nx, *ny, *nz, *depth, *residual;
 };
 
 /// Solves the fits of row v.
 EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, int width, float v,
-                                   Intrinsics camera, RowPlanes& planes) {
+                                   Intrinsics camera, RowPlanes planes) {
   const float *sn = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
               *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
               *yw = sums.yw.data(), *ww = sums.ww.data();
-  float *nx = planes.x.data(), *ny = planes.y.data(), *nz = planes.z.data(), *depth = planes.depth.data(),
-        *residual = planes.residual.data();
   EDGEPOSE_NO_OVERLAP
   for (int u = 0; u < width; ++u) {
     const float n = std::max(sn[u], 1.f), mx = x[u] / n, my = y[u] / n, mw = w[u] / n;
@@ -123,18 +127,22 @@ EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, in
     const float determinant = cxx * cyy - cxy * cxy;
     const float a = (cxw * cyy - cyw * cxy) / determinant, b = (cyw * cxx - cxw * cxy) / determinant;
     const float fitted = inverse[u] + mw - a * mx - b * my;  // inverse depth of the plane at the pixel
-    // The plane n.X = D has inverse depth (n.ray) / D, so its normal can be read off the fit.
-    nx[u] = a * camera.fx;
-    ny[u] = b * camera.fy;
-    nz[u] = fitted + a * (camera.cx - static_cast<float>(u)) + b * (camera.cy - v);
-    depth[u] = 1 / fitted;
     const float squares = std::max(0.f, ww[u] - n * mw * mw - a * cxw - b * cyw);
     const float spread = 0.02f * (cxx + cyy) * (cxx + cyy);  // below: nearly a line of pixels
     float sound = inverse[u] > 0 ? determinant - spread : -1.f;
     sound = n >= static_cast<float>(kMinNeighbours) ? sound : -1.f;
     sound = fitted > 0.2f * inverse[u] ? sound : -1.f;
     const float rms = std::sqrt(squares / std::max(1.f, n - 3)) / (inverse[u] * inverse[u]);
-    residual[u] = sound > 0 ? rms : -1.f;
+    planes.residual[u] = sound > 0 ? rms : -1.f;
+    planes.depth[u] = sound > 0 ? 1 / fitted : 0.f;
+    // The plane n.X = D has inverse depth (n.ray) / D, so its normal can be read off the fit; n.X > 0 points
+    // away from the camera.
+    const float nx = a * camera.fx, ny = b * camera.fy,
+                nz = fitted + a * (camera.cx - static_cast<float>(u)) + b * (camera.cy - v);
+    const float scale = sound > 0 ? -1 / std::sqrt(nx * nx + ny * ny + nz * nz) : 0.f;
+    planes.nx[u] = sound > 0 ? nx * scale : 0.f;
+    planes.ny[u] = sound > 0 ? ny * scale : 0.f;
+    planes.nz[u] = sound > 0 ? nz * scale : 0.f;
   }
 }
 
@@ -147,16 +155,15 @@ std::optional<float> noise_of_differences(std::vector<float>& differences) {
   if (differences.size() < kMinNoiseSamples) return std::nullopt;
   const auto kept = static_cast<long>(kKept * static_cast<float>(differences.size()));
   std::nth_element(differences.begin(), differences.begin() + kept, differences.end());
-  std::sort(differences.begin(), differences.begin() + kept);  // adding up in this order loses no bits
-  const float mean =
-      std::accumulate(differences.begin(), differences.begin() + kept, 0.f) / static_cast<float>(kept);
-  return mean / kTrimmedMean / std::sqrt(6.f);
+  const double mean =
+      std::accumulate(differences.begin(), differences.begin() + kept, 0.) / static_cast<double>(kept);
+  return static_cast<float>(mean) / kTrimmedMean / std::sqrt(6.f);
 }
 
 /// Second differences of depth in both directions at a sample of the fitted pixels, by range of depth.
 std::array<std::vector<float>, NoiseCurve::kBins> second_differences(const Scene::Data& scene) {
   std::array<std::vector<float>, NoiseCurve::kBins> samples;
-  for (int v = 1; v + 1 < scene.height; ++v)
+  for (int v = 1; v + 1 < scene.height; v += kNoiseRows)
     for (int u = 1 + v % kNoiseStride; u + 1 < scene.width; u += kNoiseStride) {
       const size_t at = scene.index(u, v), row = static_cast<size_t>(scene.width);
       if (scene.smooth_depth[at] <= 0) continue;
@@ -174,8 +181,11 @@ std::array<std::vector<float>, NoiseCurve::kBins> second_differences(const Scene
 /// Ranges with little data take their neighbour's.
 NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals) {
   std::array<std::vector<float>, NoiseCurve::kBins> samples;
-  for (size_t i = 0; i < residuals.size(); i += kNoiseStride)
-    if (residuals[i] >= 0) samples[NoiseCurve::bin(scene.depth[i])].push_back(residuals[i]);
+  for (int v = 0; v < scene.height; v += kNoiseRows)
+    for (int u = v % kNoiseStride; u < scene.width; u += kNoiseStride) {
+      const size_t i = scene.index(u, v);
+      if (residuals[i] >= 0) samples[NoiseCurve::bin(scene.depth[i])].push_back(residuals[i]);
+    }
   auto differences = second_differences(scene);
   NoiseCurve curve;
   for (int b = 0; b < NoiseCurve::kBins; ++b) {
@@ -196,34 +206,28 @@ NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& resid
 }  // namespace
 
 void estimate_normals(Scene::Data& scene, int threads) {
-  const size_t pixels = scene.depth.size();
-  const InverseDepth inverse(scene);
+  const size_t pixels = scene.depth.size(), width = static_cast<size_t>(scene.width);
+  const InverseDepth inverse(scene, threads);
   // A slope s changes the inverse depth by s / (f z) a pixel.
   const Intrinsics intrinsics(scene.camera);
   const float slope = kMaxSlope / static_cast<float>(scene.camera.fx);
-  scene.normals.assign(pixels, Eigen::Vector3f::Zero());
-  scene.smooth_depth.assign(pixels, 0.f);
-
-  std::vector<float> residuals(pixels, -1.f);
+  scene.normals.resize(pixels);
+  scene.smooth_depth.resize(pixels);
+  std::vector<float> residuals(pixels);
   const size_t jobs = static_cast<size_t>((scene.height + kRowsPerJob - 1) / kRowsPerJob);
   parallel_for(jobs, threads, [&](size_t job) {
-    RowSums sums(static_cast<size_t>(scene.width));
-    RowPlanes planes(static_cast<size_t>(scene.width));
+    RowSums sums(width);
+    std::vector<float> nx(width), ny(width), nz(width);
     const int first = static_cast<int>(job) * kRowsPerJob, last = std::min(scene.height, first + kRowsPerJob);
     for (int v = first; v < last; ++v) {
+      const size_t at = scene.index(0, v);
       sums.clear();
       for (int dv : kOffsets)
         add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope,
                           sums);
-      fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics, planes);
-      for (size_t u = 0; u < static_cast<size_t>(scene.width); ++u) {
-        if (planes.residual[u] < 0) continue;
-        const size_t at = scene.index(static_cast<int>(u), v);
-        // n.X > 0 points away from the camera
-        scene.normals[at] = -Eigen::Vector3f(planes.x[u], planes.y[u], planes.z[u]).normalized();
-        scene.smooth_depth[at] = planes.depth[u];
-        residuals[at] = planes.residual[u];
-      }
+      fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics,
+                 {nx.data(), ny.data(), nz.data(), scene.smooth_depth.data() + at, residuals.data() + at});
+      for (size_t u = 0; u < width; ++u) scene.normals[at + u] = {nx[u], ny[u], nz[u]};
     }
   });
   scene.noise = noise_curve(scene, residuals);

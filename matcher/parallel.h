@@ -5,7 +5,8 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <vector>
+
+#include "matcher/worker_pool.h"
 
 namespace edgepose {
 
@@ -28,7 +29,7 @@ void parallel_for(size_t count, int threads, const Work& work) {
   std::atomic<size_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
-  const auto run = [&] {
+  auto run = [&] {
     try {
       for (size_t i = next++; i < count; i = next++) work(i);
     } catch (...) {
@@ -37,10 +38,8 @@ void parallel_for(size_t count, int threads, const Work& work) {
       next = count;
     }
   };
-  std::vector<std::jthread> helpers;
-  for (size_t w = 1; w < workers; ++w) helpers.emplace_back(run);
-  run();
-  helpers.clear();  // joins
+  WorkerPool::instance().run(
+      workers - 1, [](void* job) { (*static_cast<decltype(run)*>(job))(); }, &run);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -14,6 +14,9 @@ class PoseComparison {
   /// True if the model's centre is less than `distance` [d] apart and the rest of the turn less than `angle`
   /// [rad].
   bool alike(const PoseF& a, const PoseF& b, float distance, float angle) const;
+  /// Whether they are no farther apart than 0.1 diameters and 15 degrees: what differs more is another
+  /// answer.
+  bool same_answer(const PoseF& a, const PoseF& b) const { return alike(a, b, 0.1f, 0.26f); }
 
  private:
   float diameter_;

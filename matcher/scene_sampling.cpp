@@ -38,7 +38,7 @@ class NormalClusterGrid {
   }
 
   void add(const SampledPoint& p, float weight) {
-    uint32_t& head = find(cell_key(p.surface.position, inverse_cell_));
+    uint32_t& head = head_of(cell_key(p.surface.position, inverse_cell_));
     uint32_t at = head;
     while (at != 0 && clusters_[at].normal.dot(p.surface.normal) < cosine_ * clusters_[at].normal.norm())
       at = clusters_[at].next;
@@ -70,13 +70,18 @@ class NormalClusterGrid {
  private:
   static constexpr uint64_t kNoKey = ~uint64_t{0};
 
-  uint32_t& find(uint64_t key) {
+  /// The first cluster of a cell. Neighbouring pixels mostly share theirs.
+  uint32_t& head_of(uint64_t key) {
+    if (key != last_key_) last_slot_ = slot_of(key), last_key_ = key;
+    return heads_[last_slot_];
+  }
+  size_t slot_of(uint64_t key) {
     if (used_ * 2 > keys_.size()) grow();
     // The product's highest bits are the ones that all of the key takes part in.
     size_t slot = key * 0x9e3779b97f4a7c15ull >> (64 - std::bit_width(keys_.size() - 1));
     while (keys_[slot] != key && keys_[slot] != kNoKey) slot = (slot + 1) & (keys_.size() - 1);
     if (keys_[slot] == kNoKey) keys_[slot] = key, ++used_;
-    return heads_[slot];
+    return slot;
   }
   void grow() {
     const std::vector<uint64_t> keys = std::move(keys_);
@@ -85,7 +90,7 @@ class NormalClusterGrid {
     heads_.assign(keys.size() * 2, 0);
     used_ = 0;
     for (size_t i = 0; i < keys.size(); ++i)
-      if (keys[i] != kNoKey) find(keys[i]) = heads[i];
+      if (keys[i] != kNoKey) heads_[slot_of(keys[i])] = heads[i];
   }
 
   float inverse_cell_, cosine_;
@@ -93,6 +98,8 @@ class NormalClusterGrid {
   std::vector<uint64_t> keys_;
   std::vector<uint32_t> heads_;
   size_t used_ = 0;
+  uint64_t last_key_ = kNoKey;
+  size_t last_slot_ = 0;
 };
 
 /// Pixels between two that are looked at: less than each where they are much denser than the finest grid.

@@ -1,6 +1,4 @@
 /// edgeposed: the daemon. Options, and what can go wrong at the start; everything else is server/service.
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <cstring>
 #include <filesystem>
@@ -8,6 +6,7 @@
 #include <new>
 
 #include "common/error.h"
+#include "common/keep_memory.h"
 #include "server/service.h"
 #include "server/training.h"
 
@@ -76,8 +75,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], edgepose::kTrainingChild) == 0) return edgepose::run_training_child();
-  // The matcher's threads are short-lived; with glibc's arena for each, memory would creep up for hours.
-  mallopt(M_ARENA_MAX, 2);
+  edgepose::keep_freed_memory();
   try {
     return edgepose::run(argc, argv);
   } catch (const std::bad_alloc&) {

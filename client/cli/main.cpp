@@ -30,6 +30,7 @@
 #include "client/cli/train_command.h"
 #include "client/cli/watch_command.h"
 #include "common/error.h"
+#include "common/keep_memory.h"
 #include "common/nearest_word.h"
 #include "common/temporary_file.h"
 
@@ -119,6 +120,7 @@ void occupy_standard_streams() {
 }  // namespace edgepose
 
 int main(int argc, char** argv) {
+  edgepose::keep_freed_memory();
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is an error of the write, as a full disk
   edgepose::occupy_standard_streams();
   edgepose::remove_temporary_files_on_signals();
