@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <sstream>
+#include <vector>
 
 #include "common/error.h"
 #include "files/whole_file.h"

@@ -2,7 +2,6 @@
 #include "bench/speed/samples.h"
 #include "evaluation/statistics.h"
 #include "evaluation/table.h"
-#include "matcher/track.h"
 
 namespace edgepose::bench {
 namespace {
@@ -29,16 +28,6 @@ std::vector<SceneVariant> scene_variants() {
   return variants;
 }
 
-ImageInput cropped(const SpeedRun& run, const Question& question, float margin) {
-  ImageInput image = run.images[question.image];
-  const ImageWindow window = window_around(run.models[question.model].model, question.camera_T_model,
-                                           image.camera, image.depth.width, image.depth.height, margin);
-  if (window.empty()) return image;
-  image.depth = cut_out(image.depth, window);
-  image.camera = cut_out(image.camera, window);
-  return image;
-}
-
 }  // namespace
 
 std::string time_scene_points(SpeedRun& run) {
@@ -54,7 +43,7 @@ std::string time_scene_points(SpeedRun& run) {
         asking.match.sampling = variants[v].sampling;
         const Model& model = run.models[question.model].model;
         if (variants[v].margin < 0) return ask(run.images[question.image], model, asking);
-        return ask(cropped(run, question, variants[v].margin), model, asking);
+        return ask(cropped(run, question, question.camera_T_model, variants[v].margin), model, asking);
       },
       [&](size_t v, size_t q, const Answer& answer) {
         matching.add(v, q, answer.matching);

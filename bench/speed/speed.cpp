@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <numbers>
 
 #include "bench/speed/parts.h"
 #include "common/atomic_file.h"
@@ -101,7 +102,7 @@ void SpeedCommand::run() const {
   run.max_threads = max_threads;
   run.max_models = max_models;
   run.shift = 1e-3 * shift_mm;
-  run.turn = turn_deg / 57.29577951308232;
+  run.turn = turn_deg * std::numbers::pi / 180;
   run.seed = seed;
   std::cout << "# " << one_line(run.set.name) << ": " << run.images.size() << " images, "
             << run.questions.size() << " questions, each asked " << repeat << " times, "

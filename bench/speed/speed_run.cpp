@@ -6,6 +6,7 @@
 #include "common/naming.h"
 #include "evaluation/deadline.h"
 #include "matcher/stopwatch.h"
+#include "matcher/track.h"
 
 namespace edgepose::bench {
 namespace {
@@ -46,6 +47,17 @@ Scene prepare(const ImageInput& image, int threads) {
   SceneOptions options;
   options.threads = threads;
   return naming(image.file, [&] { return prepare_scene(image.depth, image.camera, options); });
+}
+
+ImageInput cropped(const SpeedRun& run, const Question& question, const RigidTransform& camera_T_model,
+                   float margin) {
+  ImageInput image = run.images[question.image];
+  const ImageWindow window = window_around(run.models[question.model].model, camera_T_model, image.camera,
+                                           image.depth.width, image.depth.height, margin);
+  if (window.empty()) return image;
+  image.depth = cut_out(image.depth, window);
+  image.camera = cut_out(image.camera, window);
+  return image;
 }
 
 Answer ask(const ImageInput& image, const Model& model, const Asking& asking) {

@@ -57,6 +57,11 @@ EvalRow row_of(const SpeedRun& run, const Question& question, const Answer& answ
 /// Recall of all best guesses, accepted or not, as `edgepose eval` counts it.
 Recall recall_of(const SpeedRun& run, const std::vector<EvalRow>& rows);
 
+/// The part of the question's image that the object can cover at that pose, and `margin` [d] around it; all
+/// of the image if that would be nothing.
+ImageInput cropped(const SpeedRun& run, const Question& question, const RigidTransform& camera_T_model,
+                   float margin);
+
 /// Preprocesses, and says which file it was where that fails. Throws InputError.
 Scene prepare(const ImageInput& image, int threads);
 

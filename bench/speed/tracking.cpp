@@ -1,10 +1,10 @@
 #include <Eigen/Geometry>
 #include <array>
+#include <numbers>
 #include <random>
 
 #include "bench/speed/parts.h"
 #include "bench/speed/samples.h"
-#include "common/naming.h"
 #include "evaluation/statistics.h"
 #include "evaluation/table.h"
 #include "matcher/stopwatch.h"
@@ -33,17 +33,6 @@ RigidTransform disturbed(const SpeedRun& run, const Question& question, std::mt1
   return pose;
 }
 
-/// What the service looks at to follow the object: the part of the image around its last pose.
-ImageInput window_of(const SpeedRun& run, const Question& question, const RigidTransform& start) {
-  ImageInput image = run.images[question.image];
-  const ImageWindow window = window_around(run.models[question.model].model, start, image.camera,
-                                           image.depth.width, image.depth.height, kWindowMargin);
-  if (window.empty()) return image;
-  image.depth = cut_out(image.depth, window);
-  image.camera = cut_out(image.camera, window);
-  return image;
-}
-
 }  // namespace
 
 std::string time_tracking(SpeedRun& run) {
@@ -56,7 +45,7 @@ std::string time_tracking(SpeedRun& run) {
   std::vector<EvalRow> rows(run.questions.size());
   const auto step = [&](size_t, size_t q) {
     const Question& question = run.questions[q];
-    const ImageInput window = window_of(run, question, starts[q]);
+    const ImageInput window = cropped(run, question, starts[q], kWindowMargin);
     MatchOptions options;
     options.threads = run.threads;
     std::array<double, kRows> seconds{};
@@ -92,7 +81,7 @@ std::string time_tracking(SpeedRun& run) {
   add(kStep, "that window, and track() in it");
   const Recall followed = recall_of(run, rows);
   return "## Tracking\n\n" + table.markdown() + "\nFrom poses " + fixed(1e3 * run.shift, 1) + " mm and " +
-         fixed(run.turn * 57.29577951308232, 1) + " degrees off the truth, one object at a time; " +
+         fixed(run.turn * 180 / std::numbers::pi, 1) + " degrees off the truth, one object at a time; " +
          count_text(followed.correct[1]) + " of " + count_text(followed.instances) +
          " within 0.05 d after the step. The window is what the object can cover and " +
          fixed(static_cast<double>(kWindowMargin), 1) + " d around it, as the service cuts it out.\n";
