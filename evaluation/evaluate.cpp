@@ -6,9 +6,9 @@
 
 #include "common/error.h"
 #include "common/naming.h"
+#include "evaluation/deadline.h"
+#include "evaluation/image_input.h"
 #include "evaluation/resources.h"
-#include "files/camera_check.h"
-#include "files/depth_file.h"
 #include "files/mesh_file.h"
 #include "files/sound_mesh.h"
 
@@ -45,6 +45,7 @@ EvalRow row_for(const TestImage& image, const TrainedModel& model) {
 void fill_in(const MatchResult& result, EvalRow& row) {
   row.stages = result.times;
   row.reason = result.reason;
+  row.cut_short = result.cut_short;
   if (result.detections.empty()) return;
   const Detection& best = result.detections.front();
   row.found = true;
@@ -53,43 +54,24 @@ void fill_in(const MatchResult& result, EvalRow& row) {
   row.camera_T_model = best.camera_T_model;
 }
 
-/// A depth image, or a cloud projected to one.
-struct SceneInput {
-  DepthImage depth;
-  Camera camera;
-  RigidTransform truth_T_camera = RigidTransform::Identity();  ///< into the frame of the ground truth
-  double seconds = 0;                                          ///< that the projection took
-};
-
-SceneInput read_input(const TestImage& image) {
-  if (image.cloud.empty()) {
-    SceneInput input{read_depth_png(image.depth, image.depth_scale), image.camera};
-    check_camera(image.camera, "camera of " + image.depth.string(), input.depth.width, input.depth.height);
-    return input;
-  }
-  const Cloud cloud = read_cloud(image.cloud, LengthUnit::kMillimetre);
-  const auto start = Clock::now();
-  ProjectedCloud projected =
-      naming(image.cloud.string(), [&] { return project_cloud(cloud.vertices, cloud.viewpoint); });
-  return {std::move(projected.image), projected.camera, projected.cloud_T_camera, seconds_since(start)};
-}
-
 /// Asks for all models of one image; adds rows and times.
 void evaluate_image(const TestImage& image, const std::vector<const TrainedModel*>& asked,
                     const EvalOptions& options, Evaluation& evaluation) {
-  SceneInput input = read_input(image);
+  ImageInput input = read_image_input(image);
   if (options.disturb) input.depth = options.disturb(image, input.depth, input.camera);
   const auto start = Clock::now();
   const double cpu_start = process_cpu_seconds();
-  const std::string file = (image.cloud.empty() ? image.depth : image.cloud).string();
+  const std::string& file = input.file;
   const Scene scene = naming(file, [&] { return prepare_scene(input.depth, input.camera, options.scene); });
-  const double preprocessing = (input.seconds + seconds_since(start)) / static_cast<double>(asked.size());
+  const double spent = input.seconds + seconds_since(start);
+  const double preprocessing = spent / static_cast<double>(asked.size());
+  const MatchOptions match_options = within_deadline(options.match, options.deadline, spent);
   std::vector<EvalRow> rows;
   std::vector<MatchResult> results;
   std::vector<const Model*> models;
   for (const TrainedModel* model : asked) {
     const auto asked_at = Clock::now();
-    results.push_back(naming(file, [&] { return match(scene, model->model, options.match); }));
+    results.push_back(naming(file, [&] { return match(scene, model->model, match_options); }));
     models.push_back(&model->model);
     rows.push_back(row_for(image, *model));
     rows.back().seconds = seconds_since(asked_at) + preprocessing;
@@ -114,6 +96,8 @@ void evaluate_image(const TestImage& image, const std::vector<const TrainedModel
 std::string EvalOptions::check() const {
   if (threads && *threads < 0)
     return "threads: expected 0 (all cores) or more, found " + std::to_string(*threads);
+  if (!(deadline >= 0 && deadline <= kLongestDeadline))
+    return "deadline: expected 0 (none) to 3600 s, found " + std::to_string(deadline);
   for (const std::string& complaint : {train.check(), scene.check(), match.check()})
     if (!complaint.empty()) return complaint;
   return "";

@@ -15,6 +15,8 @@ struct EvalOptions {
   TrainOptions train;
   SceneOptions scene;
   MatchOptions match;
+  double deadline = 0;  ///< [s] for each object in each image, all of the preprocessing included; 0 = none.
+                        ///< Takes the place of match.max_seconds
   std::optional<int>
       threads;  ///< overrides those of the options above; 0 = all cores. Only times depend on it
 
@@ -45,7 +47,8 @@ std::vector<TrainingFacts> facts_of(const std::vector<TrainedModel>& models);
 struct EvalRow {
   int scene_id = 0, image_id = 0, object_id = 0;
   bool found = false;  ///< the matcher gave a pose, accepted or not; without one, pose and score mean nothing
-  bool accepted = false;  ///< ... and says that the object is there
+  bool accepted = false;   ///< ... and says that the object is there
+  bool cut_short = false;  ///< deadline or MatchOptions::max_seconds ended the search
   double score = 0;
   RigidTransform camera_T_model = RigidTransform::Identity();  ///< in the frame of the ground truth
   double seconds = 0;        ///< wall time: matching, and this object's share of the preprocessing

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "evaluation/report.h"
@@ -73,6 +74,10 @@ std::string figures_table(const EvalReport& report) {
   table.add({"... 95th percentile, ms", milliseconds(scores.time.p95)});
   table.add({"CPU time for an object in an image: mean, ms", milliseconds(run.cpu_seconds / questions)});
   table.add({"questions asked", count_text(run.rows.size())});
+  const auto cut_short =
+      std::count_if(run.rows.begin(), run.rows.end(), [](const EvalRow& row) { return row.cut_short; });
+  if (cut_short > 0)
+    table.add({"searches ended by the deadline", share_of(static_cast<size_t>(cut_short), run.rows.size())});
   table.add({"wall time of all, s", fixed(run.wall_seconds, 2)});
   table.add({"CPU time of all, s", fixed(run.cpu_seconds, 2)});
   table.add({"peak memory, MB", fixed(run.peak_memory_megabytes, 0)});

@@ -49,6 +49,7 @@ json row_json(const EvalRow& row) {
           {"object", row.object_id},
           {"found", row.found},
           {"accepted", row.accepted},
+          {"cut_short", row.cut_short},
           {"score", row.score},
           {"rotation", std::vector<double>(rotation.data(), rotation.data() + 9)},
           {"translation_m", std::vector<double>(translation.begin(), translation.end())},
@@ -106,6 +107,7 @@ EvalRow row_from(const JsonNode& node) {
   row.object_id = node.at("object").integer();
   row.found = node.at("found").boolean();
   row.accepted = node.at("accepted").boolean();
+  row.cut_short = node.at("cut_short").boolean();
   row.score = node.at("score").number();
   row.camera_T_model = pose_from(node);
   row.seconds = time_of(node.at("seconds"));

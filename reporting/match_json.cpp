@@ -83,6 +83,7 @@ json to_json(const NamedResult& found, const std::string& frame) {
           {"symmetries", to_json(found.symmetries)},
           {"found", found.found()},
           {"reason", result.reason},
+          {"cut_short", result.cut_short},
           {"detections", detections},
           {"scene_points", result.scene_points},
           {"reference_points", result.reference_points},

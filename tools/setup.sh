@@ -15,7 +15,7 @@ run=(g++ cmake ninja-build libeigen3-dev libopencv-dev libembree-dev libcli11-de
 test=(git iproute2 clang-format clang-tidy libgtest-dev libgmock-dev liborocos-kdl-dev tshark)
 # A Linux with CAN for the tests of SocketCAN (41 MB); Debian has it for this architecture, elsewhere they say so.
 if [ "$(dpkg --print-architecture)" = amd64 ]; then test+=(user-mode-linux); fi
-bench=(libpcl-dev libopencv-contrib-dev libbenchmark-dev)
+bench=(libpcl-dev libopencv-contrib-dev)
 fuzz=(clang)
 deploy=(debootstrap procps)
 

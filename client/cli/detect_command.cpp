@@ -79,6 +79,8 @@ void print_detections(std::ostream& out, const json& report) {
                        text_of(detections[i], "accepted").c_str(), rounded(at(0), 2), rounded(at(1), 2),
                        rounded(at(2), 2), number_of(detections[i], "score", 1, 2).c_str());
     }
+    if (member(model, "cut_short") == true)
+      out << formatted("%-20s cut short: the time was over before the search was\n", "");
     if (!is_found(model))
       out << formatted("%-20.20s not found: ", name.c_str()) << text_of(model, "reason") << '\n';
   }

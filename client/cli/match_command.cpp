@@ -16,6 +16,7 @@
 #include "common/error.h"
 #include "common/naming.h"
 #include "common/output_target.h"
+#include "evaluation/deadline.h"
 #include "settings/matcher_settings.h"
 
 namespace edgepose {
@@ -27,8 +28,12 @@ constexpr const char* kMatchExamples = R"(Examples:
   edgepose match bolt.model --depth frame.png --intrinsics 600,600,319.5,239.5
   edgepose match bolt.model nut.model --depth 000003.png --intrinsics scene_camera.json --json
   edgepose match bolt.model --depth frame.png --intrinsics camera_info.yaml --overlay found.png
+  edgepose match bolt.model --depth frame.png --intrinsics K.json --deadline-ms 50
   edgepose match bolt.model --cloud scan.pcd --unit m --viewpoint 0,0,0
   edgepose match vertebra.model --depth d.png --intrinsics K.json --plan drill_plan.json
+
+With --deadline-ms each MODEL has that time for itself, all of the preprocessing included and reading files left
+out; match.max_seconds of --config then means nothing. An answer that was cut short says so.
 
 Exit code: 0 if at least one model was found, 1 if none was, 2 for bad input.)";
 
@@ -39,7 +44,7 @@ struct MatchCommand {
   std::filesystem::path config, overlay, plan;
   bool as_json = false, paper_mode = false, any_size = false;
   std::optional<int> max_instances, threads;
-  std::optional<double> accept_score;
+  std::optional<double> accept_score, deadline_ms;
 
   void run() const;
 
@@ -99,8 +104,10 @@ void MatchCommand::run() const {
   const Scene scene = prepare(input, options.scene);
   std::vector<MatchResult> answers;
   std::vector<const Model*> asked;
+  const MatchOptions how =
+      within_deadline(options.match, 1e-3 * deadline_ms.value_or(0), scene.preprocessing_seconds());
   for (const ModelInput& model : inputs) {
-    answers.push_back(naming(model.file.string(), [&] { return match(scene, model.model, options.match); }));
+    answers.push_back(naming(model.file.string(), [&] { return match(scene, model.model, how); }));
     asked.push_back(&model.model);
   }
   resolve_conflicts(scene, asked, options.match, answers);
@@ -170,6 +177,7 @@ void add_match_command(CLI::App& app) {
       ->check(CLI::Range(1, 100));
   match->add_option("--accept", command->accept_score, "Score from which a pose counts as found")
       ->check(number_between(0, 1));
+  add_deadline_option(*match, command->deadline_ms, "each model");
   match->add_flag("--paper-mode", command->paper_mode,
                   "Verify as the paper does: always answers with a pose");
   match->add_option("--config", command->config, "TOML file with any option (config/edgepose.toml)");

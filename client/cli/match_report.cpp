@@ -58,6 +58,7 @@ void print_table(std::ostream& out, const std::vector<NamedResult>& results, con
       print_detection(out, named.name, detection, result.times.total());
       print_certainty(out, detection);
     }
+    if (result.cut_short) out << formatted("%-16s cut short: the time was over before the search was\n", "");
     if (!named.found()) out << formatted("%-16.16s not found: ", named.name.c_str()) << result.reason << '\n';
   }
   out << formatted("preprocessing %.1f ms, shared by %zu model%s\n", 1e3 * preprocessing_seconds,

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 
 #include "common/error.h"
+#include "evaluation/deadline.h"
 #include "evaluation/report.h"
 #include "evaluation/resources.h"
 #include "tests/evaluation/rendered_set.h"
@@ -71,6 +73,30 @@ TEST_F(Evaluate, ThePoseIsTheSameAtAnyNumberOfThreads) {
   for (size_t i = 0; i < a.rows.size(); ++i) {
     EXPECT_EQ(a.rows[i].camera_T_model.matrix(), b.rows[i].camera_T_model.matrix()) << i;
     EXPECT_EQ(a.rows[i].score, b.rows[i].score) << i;
+  }
+}
+
+TEST(Deadline, IsWhatPreprocessingLeavesOfIt) {
+  MatchOptions options;
+  options.max_seconds = 7;
+  EXPECT_EQ(within_deadline(options, 0, 0.01).max_seconds, 7) << "none: nothing changes";
+  EXPECT_DOUBLE_EQ(within_deadline(options, 0.05, 0.01).max_seconds, 0.04)
+      << "it wins, also where it is more";
+  const double least = within_deadline(options, 0.05, 0.06).max_seconds;
+  EXPECT_GT(least, 0) << "0 would be no limit at all";
+  EXPECT_LT(least, 1e-3);
+  EXPECT_EQ(within_deadline(options, 3600, 0).check(), "");
+}
+
+TEST_F(Evaluate, TheDeadlineIsCheckedAndReachesTheMatcher) {
+  EvalOptions options;
+  options.match.search.sure_once = options.match.search.sure_twice = options.match.search.sure_thrice = 1.1f;
+  options.deadline = 1e-6;
+  for (const EvalRow& row : run_evaluation(rendered->set, models, options).rows)
+    EXPECT_TRUE(row.cut_short) << row.image_id << " " << row.object_id;
+  for (const double wrong : {-1.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    options.deadline = wrong;
+    EXPECT_THROW(run_evaluation(rendered->set, models, options), InputError) << wrong;
   }
 }
 
