@@ -167,8 +167,9 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
   result.times.clustering += watch.lap();
 
   std::vector<Candidate> batch(clusters.size());
-  parallel_for((clusters.size() + 31) / 32, options_.threads, [&](size_t job) {
-    for (size_t i = job * 32; i < std::min(clusters.size(), job * 32 + 32); ++i) {
+  constexpr size_t kAtOnce = 4;
+  parallel_for((clusters.size() + kAtOnce - 1) / kAtOnce, options_.threads, [&](size_t job) {
+    for (size_t i = job * kAtOnce; i < std::min(clusters.size(), job * kAtOnce + kAtOnce); ++i) {
       batch[i].pose = {clusters[i].rotation, clusters[i].translation};
       batch[i].votes = clusters[i].votes;
       // A few steps first: a pose just voted for is off by some hundredths of the diameter, too much to be

@@ -95,7 +95,6 @@ Report report_detections(const Scene::Data& scene, const Model& model, const std
                          const CandidateSearch& search, const MatchOptions& options) {
   const Model::View& view = model.view();
   const float d = static_cast<float>(model.diameter());
-  const SceneEdges edges(scene, 0.01f * d, d / 32);
   const PoseComparison comparison(model);
   const auto near_model = view.near_model->get(view, options.paper.edge_distance * d);
   Report report;
@@ -118,6 +117,8 @@ Report report_detections(const Scene::Data& scene, const Model& model, const std
     detection.camera_T_model = to_rigid(c.pose);
     detection.score = c.confidence;
     detection.accepted = accepted;
+    const SceneEdges edges(scene, 0.01f * d, d / 32,
+                           region_of_interest(view, c.pose, options.paper.roi_scale));
     detection.edge_score = edge_score(edges, view, *near_model, c.pose, options.paper);
     detection.coverage = c.evidence.coverage();
     detection.violations = c.evidence.violation_share();

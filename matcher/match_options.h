@@ -49,8 +49,8 @@ struct ClusteringOptions {
 /// How the default search goes through candidates; memory and results only depend on these and the seed.
 struct SearchOptions {
   int batch = 32;              ///< references voted for before the next look at the candidates
-  int coarse_candidates = 20;  ///< of each batch that are refined coarsely: by rank, and as many by surface
-  int fine_candidates = 4;     ///< of these that are refined finely, likewise
+  int coarse_candidates = 10;  ///< of each batch that are refined coarsely: by rank, and as many by surface
+  int fine_candidates = 3;     ///< of these that are refined finely, likewise
   float sure_once = 0.95f;     ///< [0, 1] a candidate surer than this ends the search; above 1: never
   float sure_twice = 0.85f;    ///< the same for one that two batches led to, each by itself
   float sure_thrice = 0.75f;   ///< the same for three and more

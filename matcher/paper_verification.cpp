@@ -77,24 +77,33 @@ std::vector<uint32_t> link_clusters(const std::vector<Eigen::Vector3f>& points, 
   return cluster;
 }
 
+/// The pixels that a box may cover; all of the image if it reaches behind the camera.
+Eigen::AlignedBox2i pixels_of(const Scene::Data& scene, const Eigen::AlignedBox3f& box) {
+  const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
+                                  Eigen::Vector2i(scene.width - 1, scene.height - 1));
+  if (!(box.min().z() > 1e-3f)) return image;
+  const PixelProjection projection(scene);
+  Eigen::AlignedBox2f seen;
+  for (int corner = 0; corner < 8; ++corner)
+    seen.extend(projection.project(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner))));
+  // Clamped before they become whole numbers: a box beside the image may be any number of pixels off.
+  const Eigen::Vector2f size(static_cast<float>(scene.width), static_cast<float>(scene.height));
+  const Eigen::Vector2f low = (seen.min().array() - 1).max(-1.f).min(size.array()),
+                        high = (seen.max().array() + 2).max(-1.f).min(size.array());
+  return Eigen::AlignedBox2i(low.cast<int>(), high.cast<int>()).intersection(image);
+}
+
 /// The edge points inside the pose's axis-aligned box times `scale`, without far clusters (Fig. 5, red and
 /// blue).
 std::vector<Eigen::Vector3f> edges_in_roi(const SceneEdges& edges, const Model::View& model,
                                           const PoseF& pose, float scale) {
-  const ModelHeader& h = *model.header;
-  Eigen::AlignedBox3f box;
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto pick = [&](int axis) {
-      return static_cast<float>((corner >> axis & 1 ? h.box_max : h.box_min)[static_cast<size_t>(axis)]);
-    };
-    box.extend(pose * Eigen::Vector3f(pick(0), pick(1), pick(2)));
-  }
-  const Eigen::Vector3f centre = box.center(), half = box.sizes() / 2 * scale;
+  const Eigen::AlignedBox3f region = region_of_interest(model, pose, scale);
+  const Eigen::Vector3f centre = region.center();
   std::vector<Eigen::Vector3f> inside;
   for (const Eigen::Vector3f& p : edges.points())
-    if (((p - centre).cwiseAbs().array() <= half.array()).all()) inside.push_back(p);
+    if (region.contains(p)) inside.push_back(p);
 
-  const float d = static_cast<float>(h.diameter);
+  const float d = static_cast<float>(model.header->diameter);
   const auto cluster = link_clusters(inside, kClusterLink * d);
   std::vector<std::pair<Eigen::Vector3f, float>> sums;
   for (size_t i = 0; i < inside.size(); ++i) {
@@ -112,15 +121,34 @@ std::vector<Eigen::Vector3f> edges_in_roi(const SceneEdges& edges, const Model::
 
 }  // namespace
 
-SceneEdges::SceneEdges(const Scene::Data& scene, float cell, float max_pixel_size) {
+SceneEdges::SceneEdges(const Scene::Data& scene, float cell, float max_pixel_size)
+    : SceneEdges(scene, cell, max_pixel_size,
+                 {Eigen::Vector3f::Constant(-1e9f), Eigen::Vector3f::Constant(1e9f)}) {}
+
+SceneEdges::SceneEdges(const Scene::Data& scene, float cell, float max_pixel_size,
+                       const Eigen::AlignedBox3f& within) {
+  const Eigen::AlignedBox2i pixels = pixels_of(scene, within);
   std::unordered_set<uint64_t> taken;
-  for (int v = 0; v < scene.height; ++v)
-    for (int u = 0; u < scene.width; ++u) {
+  for (int v = pixels.min().y(); v <= pixels.max().y(); ++v)
+    for (int u = pixels.min().x(); u <= pixels.max().x(); ++u) {
       const size_t at = scene.index(u, v);
       if (scene.edges[at] == EdgeKind::kNone || scene.pixel_size(scene.depth[at]) > max_pixel_size) continue;
       const Eigen::Vector3f p = scene.point(u, v);
-      if (taken.insert(cell_key(p, 1 / cell)).second) points_.push_back(p);
+      if (within.contains(p) && taken.insert(cell_key(p, 1 / cell)).second) points_.push_back(p);
     }
+}
+
+Eigen::AlignedBox3f region_of_interest(const Model::View& model, const PoseF& camera_T_model, float scale) {
+  const ModelHeader& h = *model.header;
+  Eigen::AlignedBox3f box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto pick = [&](int axis) {
+      return static_cast<float>((corner >> axis & 1 ? h.box_max : h.box_min)[static_cast<size_t>(axis)]);
+    };
+    box.extend(camera_T_model * Eigen::Vector3f(pick(0), pick(1), pick(2)));
+  }
+  const Eigen::Vector3f centre = box.center(), half = box.sizes() / 2 * scale;
+  return {centre - half, centre + half};
 }
 
 float matching_edges(const SceneEdges& edges, const Model::View& model, const NearModel& near_model,

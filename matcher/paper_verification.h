@@ -12,6 +12,8 @@ namespace edgepose {
 class SceneEdges {
  public:
   SceneEdges(const Scene::Data& scene, float cell, float max_pixel_size);
+  /// Only those in a box, which spares to look at the rest of the image; in front of the camera.
+  SceneEdges(const Scene::Data& scene, float cell, float max_pixel_size, const Eigen::AlignedBox3f& within);
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
 
  private:
@@ -21,6 +23,10 @@ class SceneEdges {
 /// Number of scene edge points near the posed model: the quick look of Sec. 4.3.4.
 float matching_edges(const SceneEdges& edges, const Model::View& model, const NearModel& near_model,
                      const PoseF& camera_T_model);
+
+/// The region of interest of a pose: the axis-aligned box of the posed model's, its extents times `scale`;
+/// camera frame, metres.
+Eigen::AlignedBox3f region_of_interest(const Model::View& model, const PoseF& camera_T_model, float scale);
 
 /// S = N_matching / N_ROI (Eq. 2): edge points in the region of interest, without clusters of edges that lie
 /// far from the pose's centre, and how many of them are close to the posed model.

@@ -1,6 +1,7 @@
 #include "matcher/scene_sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -38,17 +39,11 @@ class NormalClusterGrid {
   }
 
   void add(const SampledPoint& p, float weight) {
-    uint32_t& head = head_of(cell_key(p.surface.position, inverse_cell_));
-    uint32_t at = head;
-    while (at != 0 && clusters_[at].normal.dot(p.surface.normal) < cosine_ * clusters_[at].normal.norm())
-      at = clusters_[at].next;
-    if (at == 0) {
-      at = static_cast<uint32_t>(clusters_.size());
-      clusters_.push_back({});
-      clusters_[at].next = head;
-      head = at;
-    }
-    Cluster& c = clusters_[at];
+    const uint64_t key = cell_key(p.surface.position, inverse_cell_);
+    // Neighbouring pixels mostly share a cluster.
+    if (key != last_key_ || !faces_like(clusters_[last_], p)) last_ = cluster_of(key, p);
+    last_key_ = key;
+    Cluster& c = clusters_[last_];
     c.position += weight * p.surface.position;
     c.normal += weight * p.surface.normal;
     c.weight += weight;
@@ -70,10 +65,20 @@ class NormalClusterGrid {
  private:
   static constexpr uint64_t kNoKey = ~uint64_t{0};
 
-  /// The first cluster of a cell. Neighbouring pixels mostly share theirs.
-  uint32_t& head_of(uint64_t key) {
-    if (key != last_key_) last_slot_ = slot_of(key), last_key_ = key;
-    return heads_[last_slot_];
+  bool faces_like(const Cluster& c, const SampledPoint& p) const {
+    const float along = c.normal.dot(p.surface.normal);
+    return along > 0 && along * along >= cosine_ * cosine_ * c.normal.squaredNorm();
+  }
+  /// The cluster of a cell that a point belongs to; a new one if there is none.
+  uint32_t cluster_of(uint64_t key, const SampledPoint& p) {
+    uint32_t& head = heads_[slot_of(key)];
+    uint32_t at = head;
+    while (at != 0 && !faces_like(clusters_[at], p)) at = clusters_[at].next;
+    if (at != 0) return at;
+    at = static_cast<uint32_t>(clusters_.size());
+    clusters_.push_back({});
+    clusters_[at].next = head;
+    return head = at;
   }
   size_t slot_of(uint64_t key) {
     if (used_ * 2 > keys_.size()) grow();
@@ -98,8 +103,8 @@ class NormalClusterGrid {
   std::vector<uint64_t> keys_;
   std::vector<uint32_t> heads_;
   size_t used_ = 0;
-  uint64_t last_key_ = kNoKey;
-  size_t last_slot_ = 0;
+  uint64_t last_key_ = kNoKey;  // of the point added last,
+  uint32_t last_ = 0;           // and its cluster
 };
 
 /// Pixels between two that are looked at: less than each where they are much denser than the finest grid.
@@ -125,16 +130,24 @@ struct Finest {
 std::vector<std::pair<SampledPoint, float>> finest_level(const Scene::Data& scene, const Finest& how,
                                                          int first_row, int last_row) {
   NormalClusterGrid grid(how.cell, how.theta_deg, 2048);
-  for (int v = first_row; v < last_row; v += how.stride)
-    for (int u = how.stride / 2; u < scene.width; u += how.stride) {
+  std::array<bool, NoiseCurve::kBins> usable;
+  for (size_t b = 0; b < usable.size(); ++b) usable[b] = scene.noise.sigma[b] <= how.max_noise;
+  const int first = how.stride / 2;
+  std::vector<float> ray_x;
+  for (int u = first; u < scene.width; u += how.stride) ray_x.push_back(scene.ray(u, 0).x());
+  for (int v = first_row; v < last_row; v += how.stride) {
+    const float ray_y = scene.ray(0, v).y();
+    for (int u = first, k = 0; u < scene.width; u += how.stride, ++k) {
       const size_t at = scene.index(u, v);
       const float z = scene.smooth_depth[at];
-      if (z <= 0 || scene.pixel_size(z) > how.max_pixel_size || scene.noise.at(z) > how.max_noise) continue;
-      const Eigen::Vector3f ray = scene.ray(u, v), normal = scene.normals[at];
+      if (z <= 0 || scene.pixel_size(z) > how.max_pixel_size || !usable[NoiseCurve::bin(z)]) continue;
+      const Eigen::Vector3f ray(ray_x[k], ray_y, 1.f);
+      const Eigen::Vector3f& normal = scene.normals[at];
       const float slant = std::max(0.1f, -normal.dot(ray) / ray.norm());
       const float side = scene.pixel_size(z) * static_cast<float>(how.stride);
       grid.add({{z * ray, normal}, side * side / slant, scene.edges[at] != EdgeKind::kNone}, 1);
     }
+  }
   return grid.take();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -187,10 +188,12 @@ std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedP
                                  const VotingOptions& options, int threads) {
   const size_t peaks = static_cast<size_t>(options.peaks_per_reference);
   std::vector<PoseHypothesis> hypotheses(references.size() * peaks);
-  const size_t chunks = std::min<size_t>(references.size(), static_cast<size_t>(thread_count(threads)));
-  parallel_for(chunks, threads, [&](size_t chunk) {
+  const size_t workers = std::min<size_t>(references.size(), static_cast<size_t>(thread_count(threads)));
+  std::atomic<size_t> next{
+      0};  // whoever is free takes the next reference: what it gives does not depend on that
+  parallel_for(workers, threads, [&](size_t) {
     Accumulator accumulator(model);
-    for (size_t i = chunk; i < references.size(); i += chunks) {
+    for (size_t i = next++; i < references.size(); i = next++) {
       accumulator.vote_for(partners, points[references[i]], options.border);
       accumulator.peaks(points[references[i]], std::span(hypotheses).subspan(i * peaks, peaks));
     }
