@@ -169,15 +169,17 @@ void CandidateSearch::add_batch(const std::vector<uint32_t>& references, std::ve
   std::vector<Candidate> batch(clusters.size());
   constexpr size_t kAtOnce = 4;
   parallel_for((clusters.size() + kAtOnce - 1) / kAtOnce, options_.threads, [&](size_t job) {
+    PoseWorkspace work;
     for (size_t i = job * kAtOnce; i < std::min(clusters.size(), job * kAtOnce + kAtOnce); ++i) {
       batch[i].pose = {clusters[i].rotation, clusters[i].translation};
       batch[i].votes = clusters[i].votes;
       // A few steps first: a pose just voted for is off by some hundredths of the diameter, too much to be
       // judged.
       if (options_.refinement.enabled)
-        batch[i].pose = refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp)
-                            .camera_T_model;
-      examine(batch[i], settings(batch[i].pose).quick);
+        batch[i].pose =
+            refine_pose(scene_, model_.view(), batch[i].pose, settings(batch[i].pose).first_icp, work)
+                .camera_T_model;
+      examine(batch[i], settings(batch[i].pose).quick, work.surface);
     }
   });
   keep_promising(batch, static_cast<size_t>(options_.search.coarse_candidates));
@@ -209,8 +211,10 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
   s.coarse_icp.iterations = r.coarse_iterations;
   s.coarse_icp.max_distance = 0.06f * d;
   s.coarse_icp.min_distance = 0.02f * d + 2 * noise;
+  s.coarse_icp.outline_stride = 3;
   s.coarse_icp.surface_sigma = std::max(noise, 0.002f * d);
   s.fine_icp = s.coarse_icp;
+  s.fine_icp.outline_stride = 1;
   s.fine_icp.max_points = kFullPoints;
   s.fine_icp.iterations = r.fine_iterations;
   s.fine_icp.max_distance = 0.025f * d + 2 * noise;
@@ -245,8 +249,8 @@ const VerificationSettings& CandidateSearch::settings(const PoseF& pose) const {
   return settings_[NoiseCurve::bin(centre.z())];
 }
 
-void CandidateSearch::examine(Candidate& c, const FreeSpaceOptions& how) const {
-  c.evidence = examine_pose(scene_, model_.view(), c.pose, how);
+void CandidateSearch::examine(Candidate& c, const FreeSpaceOptions& how, PosedSurface& surface) const {
+  c.evidence = examine_pose(scene_, model_.view(), c.pose, how, surface);
   c.score = rank_score(c.evidence, how);
   c.surface = surface_score(c.evidence, how);
   c.confidence = acceptance_score(c.evidence, how, c.sightings);
@@ -256,11 +260,12 @@ void CandidateSearch::refine(std::vector<Candidate>& candidates, IcpOptions Veri
                              FreeSpaceOptions VerificationSettings::*how) const {
   parallel_for(candidates.size(), options_.threads, [&](size_t i) {
     const VerificationSettings& s = settings(candidates[i].pose);
+    PoseWorkspace work;
     if (options_.refinement.enabled) {
-      candidates[i].icp = refine_pose(scene_, model_.view(), candidates[i].pose, s.*icp);
+      candidates[i].icp = refine_pose(scene_, model_.view(), candidates[i].pose, s.*icp, work);
       candidates[i].pose = candidates[i].icp.camera_T_model;
     }
-    examine(candidates[i], s.*how);
+    examine(candidates[i], s.*how, work.surface);
   });
   rank(candidates);
   merge_like(candidates, comparison_);

@@ -59,7 +59,7 @@ class CandidateSearch {
   /// Adds what a batch found to what the batches before it did.
   void merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch) const;
   VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;
-  void examine(Candidate& c, const FreeSpaceOptions& how) const;
+  void examine(Candidate& c, const FreeSpaceOptions& how, PosedSurface& surface) const;
   void refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,
               FreeSpaceOptions VerificationSettings::*how) const;
 

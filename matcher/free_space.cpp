@@ -46,17 +46,18 @@ bool shown_beside(const Scene::Data& scene, int64_t pixel, float z, float tolera
   return false;
 }
 
-void examine_point(const Scene::Data& scene, const PixelProjection& projection, const PoseF& pose,
-                   const OrientedPoint& point, const Eigen::Vector3f& support_normal,
-                   const FreeSpaceOptions& options, FreeSpaceEvidence& evidence) {
-  const Eigen::Vector3f p = pose * point.position;
-  const Eigen::Vector3f normal = pose.rotation * point.normal;
+/// The i-th point of a posed surface.
+void examine_point(const Scene::Data& scene, const Model::View& model, const PoseF& pose,
+                   const PosedSurface& surface, size_t i, const FreeSpaceOptions& options,
+                   FreeSpaceEvidence& evidence) {
+  const Eigen::Vector3f p(surface.x[i], surface.y[i], surface.z[i]),
+      normal(surface.nx[i], surface.ny[i], surface.nz[i]);
   const float slant = -normal.dot(p) / p.z();  // of the normal against the ray with z = 1
   if (slant < 0.1f) return;                    // turned away in the true perspective
-  const int64_t pixel = projection.pixel(p);
+  const int32_t pixel = surface.pixel[i];
   if (pixel < 0) return;
   ++evidence.expected;
-  const float z = scene.depth[pixel];
+  const float z = scene.depth[static_cast<size_t>(pixel)];
   if (z <= 0) {
     ++evidence.unmeasured;
     return;
@@ -64,8 +65,9 @@ void examine_point(const Scene::Data& scene, const PixelProjection& projection, 
   const float behind = z - p.z();
   const float distance = std::abs(behind) * slant;  // along the normal
   if (distance <= options.tolerance) {
-    const float cosine = scene.smooth_depth[pixel] > 0
-                             ? (pose.rotation * support_normal).dot(scene.normals[pixel])
+    const Eigen::Vector3f& support_normal = model.support_normals[surface.indices[i]];
+    const float cosine = scene.smooth_depth[static_cast<size_t>(pixel)] > 0
+                             ? (pose.rotation * support_normal).dot(scene.normals[static_cast<size_t>(pixel)])
                              : options.min_normal_cosine;
     if (cosine >= options.min_normal_cosine) {
       evidence.matched += 1;
@@ -133,17 +135,19 @@ void examine_outline_point(const Scene::Data& scene, const PixelProjection& proj
 }  // namespace
 
 FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& model,
-                               const PoseF& camera_T_model, const FreeSpaceOptions& options) {
+                               const PoseF& camera_T_model, const FreeSpaceOptions& options,
+                               PosedSurface& surface) {
   FreeSpaceEvidence evidence;
   const PixelProjection projection(scene);
   const size_t view = view_of_pose(model, camera_T_model, box_centre(*model.header));
-  for_visible_points(model, view, options.max_points, [&](size_t i) {
-    examine_point(scene, projection, camera_T_model, model.dense_points[i], model.support_normals[i], options,
-                  evidence);
-  });
-  if (options.outline)
-    for (const ContourPoint& c : model.contour_from(view))
-      examine_outline_point(scene, projection, camera_T_model, c, options, evidence);
+  surface.take(model, view, options.max_points);
+  surface.place(camera_T_model, projection);
+  for (size_t i = 0; i < surface.count(); ++i)
+    examine_point(scene, model, camera_T_model, surface, i, options, evidence);
+  if (!options.outline) return evidence;
+  const auto contour = model.contour_from(view);
+  for (size_t i = 0; i < contour.size(); i += static_cast<size_t>(options.outline_stride))
+    examine_outline_point(scene, projection, camera_T_model, contour[i], options, evidence);
   return evidence;
 }
 

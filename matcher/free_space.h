@@ -1,5 +1,5 @@
 #pragma once
-#include "matcher/pose_projection.h"
+#include "matcher/posed_surface.h"
 
 namespace edgepose {
 
@@ -33,11 +33,14 @@ struct FreeSpaceOptions {
   float min_normal_cosine = 0.6f;
   size_t max_points = 1000;  ///< dense points looked at; time is proportional
   bool outline = true;
+  int outline_stride = 1;  ///< from one point of the outline that is looked at to the next
 };
 
 /// Projects the model's visible points and outline into the image (default verification; docs/matcher.md).
+/// `surface`: where the points are posed; for one model, to be kept for the next pose.
 FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& model,
-                               const PoseF& camera_T_model, const FreeSpaceOptions& options);
+                               const PoseF& camera_T_model, const FreeSpaceOptions& options,
+                               PosedSurface& surface);
 
 inline constexpr float kNoEvidence = -1000;
 

@@ -4,48 +4,46 @@
 #include <array>
 #include <optional>
 
-#include "matcher/normal_equations.h"
-#include "matcher/posed_surface.h"
 #include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
 
-/// What lies along a short line of pixels through an outline point, from inside of the model outwards.
+constexpr int kMaxReach = 10;  // pixels to either side of the outline that are looked at
+
+/// A short line of pixels through an outline point, from inside of the model outwards.
 class PixelLine {
  public:
-  static constexpr int kMaxReach = 10;  // pixels to either side
-
-  /// `step`: one pixel outwards. Empty, as `at()` must not be called, if the line leaves the image.
+  /// `step`: one pixel outwards. If the line leaves the image, `depth()` must not be called.
   PixelLine(const Scene::Data& scene, const PixelProjection& projection, const Eigen::Vector2f& middle,
-            const Eigen::Vector2f& step, int reach) {
+            const Eigen::Vector2f& step, int reach)
+      : scene_(scene), middle_(middle), step_(step) {
     const float ends = static_cast<float>(reach);
     const Eigen::Vector2f first = middle - ends * step, last = middle + ends * step;
     // A line's ends are inside of the image if, and only if, all of it is.
     inside_ = projection.pixel_at(first.x(), first.y()) >= 0 && projection.pixel_at(last.x(), last.y()) >= 0;
-    if (!inside_) return;
-    for (int k = 0; k <= 2 * reach; ++k) {
-      const float along = static_cast<float>(k - reach);
-      const int u = static_cast<int>(middle.x() + along * step.x() + 0.5f),
-                v = static_cast<int>(middle.y() + along * step.y() + 0.5f);
-      depth_[static_cast<size_t>(k)] =
-          scene.depth[static_cast<size_t>(v) * static_cast<size_t>(scene.width) + static_cast<size_t>(u)];
-    }
   }
   bool inside() const { return inside_; }
-  float operator[](int k) const { return depth_[static_cast<size_t>(k)]; }
+  /// [m] what the scene has so many pixels outwards.
+  float depth(int outwards) const {
+    const float along = static_cast<float>(outwards);
+    const int u = static_cast<int>(middle_.x() + along * step_.x() + 0.5f),
+              v = static_cast<int>(middle_.y() + along * step_.y() + 0.5f);
+    return scene_.depth[static_cast<size_t>(v) * static_cast<size_t>(scene_.width) + static_cast<size_t>(u)];
+  }
 
  private:
+  const Scene::Data& scene_;
+  const Eigen::Vector2f middle_, step_;
   bool inside_;
-  std::array<float, 2 * kMaxReach + 1> depth_;
 };
 
 /// Pixels from the outline point along the line to where the scene falls away; empty if it does not.
 std::optional<float> jump_along(const PixelLine& line, float z, float tolerance, int reach) {
   bool was_inside = false;
   int empty = 0;
-  for (int k = 0; k <= 2 * reach; ++k) {
-    const float depth = line[k];
+  for (int k = -reach; k <= reach; ++k) {
+    const float depth = line.depth(k);
     if (depth <= 0) {
       ++empty;
       continue;
@@ -57,7 +55,7 @@ std::optional<float> jump_along(const PixelLine& line, float z, float tolerance,
     } else if (was_inside) {
       // A hole of unmeasured pixels hides where exactly the jump is.
       if (empty > 2) return std::nullopt;
-      return static_cast<float>(k - reach) - 0.5f - 0.5f * static_cast<float>(empty);
+      return static_cast<float>(k) - 0.5f - 0.5f * static_cast<float>(empty);
     }
     empty = 0;
   }
@@ -101,16 +99,8 @@ EDGEPOSE_WIDE_SIMD void compare_surface(SurfaceColumns c, size_t count, SurfaceR
   }
 }
 
-/// What the iterations of one pose work on, so that nothing is allocated in them.
-struct Workspace {
-  PosedSurface surface;
-  std::vector<float> depth, nx, ny, nz;  // of the scene at the points' pixels
-  std::vector<float> counted;
-  ResidualRows rows;
-};
-
 /// Reads the scene at the points' pixels.
-void read_scene(const Scene::Data& scene, Workspace& work) {
+void read_scene(const Scene::Data& scene, PoseWorkspace& work) {
   const size_t count = work.surface.padded();
   for (auto* column : {&work.depth, &work.nx, &work.ny, &work.nz, &work.counted}) column->resize(count);
   for (size_t i = 0; i < count; ++i) {
@@ -131,7 +121,7 @@ struct Fit {
 
 /// Fills the rows with the surface's correspondences.
 Fit add_surface(const Scene::Data& scene, const PoseF& pose, const Eigen::Vector3f& centre,
-                float max_distance, const IcpOptions& options, Workspace& work) {
+                float max_distance, const IcpOptions& options, PoseWorkspace& work) {
   const PixelProjection projection(scene);
   PosedSurface& s = work.surface;
   s.place(pose, projection);
@@ -161,21 +151,25 @@ void add_outline(const Scene::Data& scene, const Model::View& model, const PoseF
                  const Eigen::Vector3f& centre, float max_distance, const IcpOptions& options,
                  ResidualRows& rows) {
   const PixelProjection projection(scene);
-  for (const ContourPoint& c : model.contour_from(view)) {
+  const auto contour = model.contour_from(view);
+  const auto stride = static_cast<size_t>(options.outline_stride);
+  for (size_t i = 0; i < contour.size(); i += stride) {
+    const ContourPoint& c = contour[i];
     const Eigen::Vector3f p = pose * c.position;
     if (!(p.z() > 1e-3f)) continue;
     const Eigen::Vector3f outwards = pose.rotation * c.outwards;
     const float pixel_size = scene.pixel_size(p.z());
     const Eigen::Vector2f at = projection.project(p),
                           step = projection.project(p + outwards * pixel_size) - at;
-    const int reach = std::clamp(static_cast<int>(max_distance / pixel_size), 2, PixelLine::kMaxReach);
+    const int reach = std::clamp(static_cast<int>(max_distance / pixel_size), 2, kMaxReach);
     const PixelLine line(scene, projection, at, step, reach);
     if (!line.inside()) continue;
     const auto jump = jump_along(line, p.z(), std::max(2 * max_distance, 4 * pixel_size), reach);
     if (!jump) continue;
     const float sigma = options.outline_sigma_pixels * pixel_size;
     const float r = *jump / static_cast<float>(reach + 1);
-    rows.append(p - centre, outwards, *jump * pixel_size, (1 - r * r) * (1 - r * r) / (sigma * sigma));
+    rows.append(p - centre, outwards, *jump * pixel_size,
+                static_cast<float>(stride) * (1 - r * r) * (1 - r * r) / (sigma * sigma));
   }
 }
 
@@ -193,13 +187,12 @@ void apply(const Eigen::Matrix<double, 6, 1>& twist, const Eigen::Vector3f& cent
 }  // namespace
 
 IcpResult refine_pose(const Scene::Data& scene, const Model::View& model, const PoseF& start,
-                      const IcpOptions& options) {
+                      const IcpOptions& options, PoseWorkspace& work) {
   IcpResult result;
   result.camera_T_model = start;
   result.surface_sigma = options.surface_sigma;
   const Eigen::Vector3f model_centre = box_centre(*model.header);
   const double radius = model.header->diameter / 4;
-  Workspace work;
   for (int i = 0; i < options.iterations; ++i) {
     const float progress =
         options.iterations > 1 ? static_cast<float>(i) / static_cast<float>(options.iterations - 1) : 1;

@@ -48,12 +48,12 @@ struct ClusteringOptions {
 
 /// How the default search goes through candidates; memory and results only depend on these and the seed.
 struct SearchOptions {
-  int batch = 32;              ///< references voted for before the next look at the candidates
-  int coarse_candidates = 10;  ///< of each batch that are refined coarsely: by rank, and as many by surface
-  int fine_candidates = 3;     ///< of these that are refined finely, likewise
-  float sure_once = 0.95f;     ///< [0, 1] a candidate surer than this ends the search; above 1: never
-  float sure_twice = 0.85f;    ///< the same for one that two batches led to, each by itself
-  float sure_thrice = 0.75f;   ///< the same for three and more
+  int batch = 32;             ///< references voted for before the next look at the candidates
+  int coarse_candidates = 8;  ///< of each batch that are refined coarsely: by rank, and as many by surface
+  int fine_candidates = 2;    ///< of these that are refined finely, likewise
+  float sure_once = 0.95f;    ///< [0, 1] a candidate surer than this ends the search; above 1: never
+  float sure_twice = 0.85f;   ///< the same for one that two batches led to, each by itself
+  float sure_thrice = 0.75f;  ///< the same for three and more
   float settled = 8;  ///< the search also ends when two batches and more led to the best candidate and their
                       ///< number times its lead over every other pose is more than this; large: never
 
@@ -74,7 +74,7 @@ struct ToleranceOptions {
 /// ICP, coarse to fine, point to plane (paper Sec. 4.3.4, last step).
 struct RefinementOptions {
   bool enabled = true;       ///< false: poses are reported as they were voted for and averaged
-  int first_iterations = 3;  ///< before a voted pose is looked at
+  int first_iterations = 2;  ///< before a voted pose is looked at
   int coarse_iterations = 6;
   int fine_iterations = 10;
   int last_iterations = 8;  ///< with every model point, of what is reported

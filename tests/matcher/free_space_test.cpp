@@ -19,8 +19,9 @@ class FreeSpace : public testing::TestWithParam<uint64_t> {
     return CandidateSearch(seen.scene->data(), bracket_model(), none, defaults).settings(seen.truth()).full;
   }
   FreeSpaceEvidence examine(const DepthImage& image, const PoseF& pose) const {
-    return examine_pose(prepare_scene(image, fixtures::kCamera).data(), bracket_model().view(), pose,
-                        options);
+    PosedSurface surface;
+    return examine_pose(prepare_scene(image, fixtures::kCamera).data(), bracket_model().view(), pose, options,
+                        surface);
   }
 
   fixtures::Sampled seen;

@@ -19,9 +19,10 @@ TEST_P(Refinement, PullsAPerturbedPoseBack) {
   options.min_distance = 0.01f * d;
   options.max_points = 1500;
   options.iterations = 15;
+  PoseWorkspace work;
   for (int i = 0; i < 5; ++i) {
     const PoseF start = seen.perturbed(random, 0.08, 0.03 * d);
-    const IcpResult result = refine_pose(seen.scene->data(), bracket_model().view(), start, options);
+    const IcpResult result = refine_pose(seen.scene->data(), bracket_model().view(), start, options, work);
     EXPECT_LT(seen.distance(result.camera_T_model), 0.01 * d);
     EXPECT_LT(seen.angle(result.camera_T_model), 0.03);
     EXPECT_LT(result.rms, 0.005f * d);
@@ -33,7 +34,8 @@ TEST_P(Refinement, LeavesAPoseWithoutCorrespondencesAlone) {
   const fixtures::Sampled seen(GetParam());
   PoseF far = seen.truth();
   far.translation.z() += 1;
-  const IcpResult result = refine_pose(seen.scene->data(), bracket_model().view(), far, {});
+  PoseWorkspace work;
+  const IcpResult result = refine_pose(seen.scene->data(), bracket_model().view(), far, {}, work);
   EXPECT_EQ(result.camera_T_model.translation, far.translation);
   EXPECT_LT(result.correspondences, 6);
 }
