@@ -1,5 +1,6 @@
 #include "matcher/feature_batch.h"
 
+#include "matcher/lanes.h"
 #include "matcher/wide_simd.h"
 
 namespace edgepose {
@@ -49,8 +50,8 @@ void FeatureBatch::compute(const OrientedPoint& reference, const ReferenceFrame&
   const size_t count = run.second - run.first, at = run.first;
   if (squared_distance.size() < count) {
     for (auto* values : {&squared_distance, &distance, &angle_reference, &angle_second, &angle_normals})
-      values->resize(count);
-    alpha.resize(count);
+      values->resize(whole_lanes(count));
+    alpha.resize(whole_lanes(count));
   }
   const Eigen::Vector3f &o = reference.position, &n = reference.normal;
   const Eigen::Vector3f u = frame.rotation.row(1), v = frame.rotation.row(2);

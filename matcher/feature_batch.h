@@ -8,7 +8,7 @@
 namespace edgepose {
 
 /// The features of one reference with a run of partners: FeatureQuantiser::feature() and
-/// ReferenceFrame::alpha(), for many at once.
+/// ReferenceFrame::alpha(), for many at once; with room for whole lanes.
 struct FeatureBatch {
   std::vector<float> squared_distance;                                        ///< [m^2]
   std::vector<float> distance, angle_reference, angle_second, angle_normals;  ///< in steps, as in PairFeature

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "matcher/feature_batch.h"
+#include "matcher/bucket_visits.h"
 #include "matcher/parallel.h"
 #include "matcher/partner_search.h"
 #include "matcher/wide_simd.h"
@@ -19,19 +19,6 @@ constexpr uint32_t kAlphaBins = 1u << kAlphaBits;
 constexpr int kAlphaShift = 16 - kAlphaBits;
 constexpr size_t kAhead = 12;  // visits between asking for a bucket and using it
 
-/// Buckets a feature votes in along one dimension: its own and perhaps a neighbour.
-struct Bins {
-  std::array<uint32_t, 2> bin;
-  int count;
-};
-Bins bins_of(float value, float border, uint32_t size) {
-  const uint32_t own = std::min(static_cast<uint32_t>(value), size - 1);
-  const float rest = value - static_cast<float>(own);
-  if (rest < border && own > 0) return {{own, own - 1}, 2};
-  if (rest > 1 - border && own + 1 < size) return {{own, own + 1}, 2};
-  return {{own, own}, 1};
-}
-
 /// The largest sum of two neighbouring entries of an accumulator's row.
 EDGEPOSE_WIDE_SIMD uint32_t highest_pair(const uint16_t* row) {
   uint16_t highest = static_cast<uint16_t>(row[kAlphaBins - 1] + row[0]);
@@ -39,12 +26,6 @@ EDGEPOSE_WIDE_SIMD uint32_t highest_pair(const uint16_t* row) {
     highest = std::max(highest, static_cast<uint16_t>(row[a] + row[a + 1]));
   return highest;
 }
-
-/// A feature that votes: a bucket of the table and the scene's alpha.
-struct Visit {
-  uint32_t bucket;
-  uint16_t alpha;
-};
 
 /// The entries of a bucket that get a vote.
 struct Hit {
@@ -67,15 +48,17 @@ class Accumulator {
   void vote_for(const PartnerSearch& partners, const OrientedPoint& reference, float border) {
     std::fill(votes_.begin(), votes_.end(), uint16_t{0});
     const ReferenceFrame frame(reference);
+    const ModelHeader& h = *view_.header;
+    const VisitRule rule = {static_cast<float>(h.diameter), border, h.normal_bin_first, h.normal_bin_last};
     partners.runs_near(reference.position, runs_);
     for (const PartnerSearch::Run& run : runs_) {
       batch_.compute(reference, frame, partners.points(), run, quantiser_);
-      list_visits(run.second - run.first, border);
+      visits_.list(batch_, run.second - run.first, quantiser_, rule);
       list_hits();
       vote();
     }
-    for (const uint32_t bucket : flagged_) flags_[bucket] = 0;
-    flagged_.clear();
+    for (size_t i = 0; i < flagged_count_; ++i) flags_[flagged_[i]] = 0;
+    flagged_count_ = 0;
   }
 
   /// The strongest (model point, alpha) entries as poses; the votes of two neighbouring alphas count
@@ -103,59 +86,39 @@ class Accumulator {
   }
 
  private:
-  /// The buckets that the batch's features fall into, or nearly.
-  void list_visits(size_t pairs, float border) {
-    visits_.clear();
-    const float reach = static_cast<float>(view_.header->diameter);
-    for (size_t i = 0; i < pairs; ++i) {
-      const float squared = batch_.squared_distance[i];
-      if (squared > reach * reach || squared <= 0) continue;  // zero: the reference itself
-      const Bins normals = bins_of(batch_.angle_normals[i], border, quantiser_.angle_bins);
-      const Bins distance = bins_of(batch_.distance[i], border, quantiser_.distance_bins);
-      const Bins first = bins_of(batch_.angle_reference[i], border, quantiser_.angle_bins);
-      const Bins second = bins_of(batch_.angle_second[i], border, quantiser_.angle_bins);
-      const auto alpha = static_cast<uint16_t>(batch_.alpha[i]);
-      for (int n = 0; n < normals.count; ++n) {
-        if (normals.bin[n] < view_.header->normal_bin_first || normals.bin[n] > view_.header->normal_bin_last)
-          continue;
-        for (int d = 0; d < distance.count; ++d)
-          for (int a = 0; a < first.count; ++a)
-            for (int b = 0; b < second.count; ++b)
-              visits_.push_back(
-                  {quantiser_.bucket(distance.bin[d], first.bin[a], second.bin[b], normals.bin[n]), alpha});
-      }
-    }
-  }
-
   /// Looks the buckets up. Like pairs at like alpha vote once (Hinterstoisser et al. 2016): planes and dense
-  /// areas repeat them.
+  /// areas repeat them. What need not be kept is written all the same, as nobody could predict it.
   void list_hits() {
-    hits_.resize(visits_.size());
+    const size_t visits = visits_.count();
+    hits_.resize(visits + 1);
+    flagged_.resize(flagged_count_ + visits + 1);
+    const uint32_t* offsets = view_.offsets.data();
     size_t count = 0;
-    for (size_t i = 0; i < visits_.size(); ++i) {
-      const Visit ahead = visits_[std::min(i + kAhead, visits_.size() - 1)];
-      __builtin_prefetch(&view_.offsets[ahead.bucket]);
-      __builtin_prefetch(&flags_[ahead.bucket], 1);
-      const auto [bucket, alpha] = visits_[i];
-      const uint32_t begin = view_.offsets[bucket], end = view_.offsets[bucket + 1];
-      if (begin == end) continue;
-      const uint32_t bit = 1u << (alpha >> kAlphaShift);
-      uint32_t& flags = flags_[bucket];
-      if (flags & bit) continue;
-      if (flags == 0) flagged_.push_back(bucket);
-      flags |= bit;
+    for (size_t i = 0; i < visits; ++i) {
+      const uint32_t ahead = visits_.bucket(std::min(i + kAhead, visits - 1));
+      __builtin_prefetch(offsets + ahead);
+      __builtin_prefetch(&flags_[ahead], 1);
+      const uint32_t bucket = visits_.bucket(i), begin = offsets[bucket], end = offsets[bucket + 1];
+      const uint16_t alpha = visits_.alpha(i);
+      const uint32_t bit = 1u << (alpha >> kAlphaShift), flags = flags_[bucket];
+      const bool fresh = (begin != end) & ((flags & bit) == 0);
+      flags_[bucket] = fresh ? flags | bit : flags;
+      flagged_[flagged_count_] = bucket;
+      flagged_count_ += fresh & (flags == 0);
       __builtin_prefetch(&view_.entries[begin]);
-      hits_[count++] = {begin, end, alpha};
+      hits_[count] = {begin, end, alpha};
+      count += fresh;
     }
     hits_.resize(count);
   }
 
   void vote() {
-    for (const Hit& hit : hits_)
-      for (uint32_t e = hit.begin; e < hit.end; ++e) {
-        const PairEntry entry = view_.entries[e];
-        const uint32_t alpha = static_cast<uint16_t>(hit.alpha - entry.alpha) >> kAlphaShift;
-        ++votes_[(uint32_t{entry.reference} << kAlphaBits) + alpha];
+    const PairEntry* entries = view_.entries.data();
+    uint16_t* votes = votes_.data();
+    for (const Hit hit : hits_)
+      for (const PairEntry *entry = entries + hit.begin, *end = entries + hit.end; entry != end; ++entry) {
+        const uint32_t alpha = static_cast<uint16_t>(hit.alpha - entry->alpha) >> kAlphaShift;
+        ++votes[(uint32_t{entry->reference} << kAlphaBits) + alpha];
       }
   }
 
@@ -174,10 +137,11 @@ class Accumulator {
   const Model::View& view_;
   FeatureQuantiser quantiser_{};
   std::vector<uint16_t> votes_;
-  std::vector<uint32_t> flags_, flagged_;
+  std::vector<uint32_t> flags_, flagged_;  // flagged: the buckets with flags, flagged_count_ of them
+  size_t flagged_count_ = 0;
   std::vector<PartnerSearch::Run> runs_;
   FeatureBatch batch_;
-  std::vector<Visit> visits_;
+  BucketVisits visits_;
   std::vector<Hit> hits_;
 };
 
