@@ -14,7 +14,8 @@ namespace {
 
 // Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely, reported.
 constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500, kAllPoints = 1 << 20;
-constexpr float kRound = 75;  // references: what a sighting stands for in acceptance_score()
+// References: what a sighting stands for in acceptance_score(), and the fewest that it was fitted to.
+constexpr float kRound = 75, kFewest = 600;
 constexpr float kLikeDistance = 0.02f, kLikeAngle = 0.05f;  // [d], [rad] poses closer than this are one
 
 /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
@@ -43,14 +44,14 @@ bool beyond_doubt(const Candidate& best, const SearchOptions& options) {
   return best.confidence > sure;
 }
 
-/// How many of `rounds` rounds of kRound references would lead to a candidate that `sightings` of the
-/// `looked` batches so far, of `batches` in all, have led to. acceptance_score() was fitted to such counts; a
-/// search that ends early must not make a pose look less likely for that.
-float expected_rounds(int sightings, size_t looked, size_t batches, float batch, float rounds) {
-  const auto seen = static_cast<float>(sightings), done = static_cast<float>(looked),
-             all = static_cast<float>(batches);
+/// How many rounds of kRound references out of `references` would lead to a candidate that `sightings` of
+/// the first `looked` batches have led to. acceptance_score() was fitted to such counts; a search that ends
+/// early must not make a pose look less likely for that.
+float expected_rounds(int sightings, size_t looked, float batch, float references) {
+  const auto seen = static_cast<float>(sightings), done = static_cast<float>(looked);
+  const float all = std::max(done, std::ceil(references / batch));
   const float rate = (seen + (all - done) * seen / (done + 1)) / all;
-  return rounds * (1 - std::pow(1 - rate, kRound / batch));
+  return std::ceil(references / kRound) * (1 - std::pow(1 - rate, kRound / batch));
 }
 
 /// Keeps the best `count` by score and as many more by surface; ranked.
@@ -113,7 +114,7 @@ std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& referen
       break;
     }
   }
-  count_rounds(candidates, looked, batches, references.size());
+  count_rounds(candidates, looked, references.size());
   return candidates;
 }
 
@@ -130,12 +131,12 @@ bool CandidateSearch::ends_search(const std::vector<Candidate>& ranked) const {
   });
 }
 
-void CandidateSearch::count_rounds(std::vector<Candidate>& candidates, size_t looked, size_t batches,
+void CandidateSearch::count_rounds(std::vector<Candidate>& candidates, size_t looked,
                                    size_t references) const {
   const float batch = static_cast<float>(options_.search.batch),
-              rounds = std::ceil(static_cast<float>(references) / kRound);
+              all = std::max(static_cast<float>(references), kFewest);
   for (Candidate& c : candidates) {
-    const float expected = expected_rounds(c.sightings, looked, batches, batch, rounds);
+    const float expected = expected_rounds(c.sightings, looked, batch, all);
     c.sightings = std::max(1, static_cast<int>(std::lround(expected)));
     c.confidence = acceptance_score(c.evidence, settings(c.pose).full, c.sightings);
   }
@@ -214,13 +215,14 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
   s.coarse_icp.outline_stride = 3;
   s.coarse_icp.surface_sigma = std::max(noise, 0.002f * d);
   s.fine_icp = s.coarse_icp;
-  s.fine_icp.outline_stride = 1;
+  s.fine_icp.outline_stride = 2;
   s.fine_icp.max_points = kFullPoints;
   s.fine_icp.iterations = r.fine_iterations;
   s.fine_icp.max_distance = 0.025f * d + 2 * noise;
   s.fine_icp.min_distance = 0.008f * d + 2 * noise;
   s.fine_icp.outline_sigma_pixels = r.outline_sigma;
   s.last_icp = s.fine_icp;
+  s.last_icp.outline_stride = 1;
   s.last_icp.max_points = kAllPoints;
   s.last_icp.iterations = r.last_iterations;
   s.last_icp.max_distance = s.fine_icp.min_distance;
@@ -253,7 +255,6 @@ void CandidateSearch::examine(Candidate& c, const FreeSpaceOptions& how, PosedSu
   c.evidence = examine_pose(scene_, model_.view(), c.pose, how, surface);
   c.score = rank_score(c.evidence, how);
   c.surface = surface_score(c.evidence, how);
-  c.confidence = acceptance_score(c.evidence, how, c.sightings);
 }
 
 void CandidateSearch::refine(std::vector<Candidate>& candidates, IcpOptions VerificationSettings::*icp,
@@ -266,6 +267,7 @@ void CandidateSearch::refine(std::vector<Candidate>& candidates, IcpOptions Veri
       candidates[i].pose = candidates[i].icp.camera_T_model;
     }
     examine(candidates[i], s.*how, work.surface);
+    candidates[i].confidence = acceptance_score(candidates[i].evidence, s.*how, candidates[i].sightings);
   });
   rank(candidates);
   merge_like(candidates, comparison_);

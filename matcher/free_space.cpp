@@ -9,7 +9,7 @@ namespace {
 /// What both judgements build on. Logarithms of shares: a sensor that blurs outlines denies many of them, one
 /// that does not denies hardly any, so the step from none to some must count more than from some to many.
 struct Features {
-  float matched, unmeasured, coverage, disagreeing, near, violated, denied, confirmed, distance, spread;
+  float matched, unmeasured, coverage, disagreeing, near, violated, denied, confirmed, distance;
 
   Features(const FreeSpaceEvidence& e, const FreeSpaceOptions& options) {
     const float outline = std::max(1.f, e.outline_confirmed + e.outline_denied + e.outline_open);
@@ -23,11 +23,15 @@ struct Features {
     denied = std::log1p(e.outline_denied / outline / 0.05f);
     confirmed = e.outline_confirmed / outline;
     distance = std::log(e.distance_sum / e.matched / (0.01f * options.diameter) + 0.05f);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(e.normal_spread / e.matched,
-                                                                Eigen::EigenvaluesOnly);
-    spread = std::log(std::max(0.f, solver.eigenvalues()[0]) + 0.01f);
   }
 };
+
+/// How much the matched surface faces different ways: what a plane shows fits in many places.
+float normal_spread(const FreeSpaceEvidence& e) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(e.normal_spread / e.matched,
+                                                              Eigen::EigenvaluesOnly);
+  return std::log(std::max(0.f, solver.eigenvalues()[0]) + 0.01f);
+}
 
 constexpr float kTooFew = 5;  // matched points
 
@@ -169,7 +173,7 @@ float acceptance_score(const FreeSpaceEvidence& e, const FreeSpaceOptions& optio
   const Features f(e, options);
   const float logit = 2.65f + 1.38f * f.matched + 0.09f * f.coverage + 1.33f * f.disagreeing -
                       0.59f * f.violated - 1.48f * f.near - 0.53f * f.distance - 0.96f * f.denied +
-                      1.94f * f.confirmed - 0.94f * f.unmeasured + 1.32f * f.spread +
+                      1.94f * f.confirmed - 0.94f * f.unmeasured + 1.32f * normal_spread(e) +
                       1.74f * std::log(static_cast<float>(sightings));
   return 1 / (1 + std::exp(-logit));
 }

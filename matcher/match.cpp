@@ -31,8 +31,10 @@ size_t wanted_references(size_t points, const MatchOptions& options) {
   const auto share =
       static_cast<size_t>(std::ceil(options.voting.reference_share * static_cast<float>(points)));
   if (options.verification != Verification::kFreeSpace) return std::max<size_t>(share, 1);
-  return std::clamp(share, static_cast<size_t>(options.voting.min_references),
-                    static_cast<size_t>(options.voting.max_references));
+  const auto fewest =
+                 static_cast<size_t>(options.voting.min_references) * (options.max_instances > 1 ? 2 : 1),
+             most = static_cast<size_t>(options.voting.max_references);
+  return std::clamp(share, std::min(fewest, most), most);
 }
 
 /// The scene's points for this model (paper Fig. 4), without the planes that are too large to be on it.

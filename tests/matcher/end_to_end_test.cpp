@@ -56,6 +56,22 @@ class OnTheTable : public testing::TestWithParam<uint64_t> {
   DepthImage image;
 };
 
+TEST_P(OnTheTable, ASettledSearchEndsEarlierWithTheSamePose) {
+  MatchOptions settled;
+  settled.search.sure_once = settled.search.sure_twice = settled.search.sure_thrice = 2;
+  MatchOptions never = settled;
+  never.search.settled = 1e5f;
+  const MatchResult early = match_with(image, 2, settled), late = match_with(image, 2, never);
+  EXPECT_LT(2 * early.candidates, late.candidates);
+  ASSERT_FALSE(early.detections.empty());
+  ASSERT_FALSE(late.detections.empty());
+  EXPECT_LT(pose_error(early.detections[0].camera_T_model, truth), 0.002);
+  EXPECT_LT(pose_error(late.detections[0].camera_T_model, truth), 0.002);
+  // Sightings that a search did not wait for must not make a pose look less likely.
+  EXPECT_TRUE(early.detections[0].accepted);
+  EXPECT_NEAR(early.detections[0].score, late.detections[0].score, 0.1);
+}
+
 TEST_P(OnTheTable, IsFoundAndAnyThreadCountSaysTheSame) {
   const MatchResult one = match_with(image, 1);
   ASSERT_FALSE(one.detections.empty()) << one.reason;
