@@ -62,7 +62,7 @@ std::string RefinementOptions::check() const {
 
 std::string PaperOptions::check() const {
   return option_fault({{"candidates", static_cast<double>(candidates), 1, 1000},
-                       {"roi_scale", roi_scale, 1, 10},
+                       {"roi_scale", roi_scale, 1, 4},
                        {"accept_at_once", accept_at_once, 0, 2},
                        {"accept_best", accept_best, 0, 2},
                        {"edge_distance", edge_distance, 1e-4, 0.2}});

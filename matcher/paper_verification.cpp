@@ -4,6 +4,7 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "matcher/linkage.h"
 #include "matcher/parallel.h"
 #include "matcher/point_grid.h"
 
@@ -13,69 +14,6 @@ namespace {
 constexpr float kClusterLink = 0.05f;  // [d] edge points closer than this belong to one cluster
 constexpr float kClusterReach =
     0.6f;  // [d] clusters whose centre is farther from the pose's centre are clutter
-
-/// Points in the cells of a box, for search within a cell's size: no hashing, as the box is small.
-class BoxGrid {
- public:
-  BoxGrid(const std::vector<Eigen::Vector3f>& points, float cell) : inverse_cell_(1 / cell) {
-    Eigen::AlignedBox3f box;
-    for (const Eigen::Vector3f& p : points) box.extend(p);
-    low_ = box.min();
-    size_ = ((box.max() - low_) * inverse_cell_).array().floor().cast<int>() + 1;
-    first_.assign(static_cast<size_t>(size_.prod()) + 1, 0);
-    for (const Eigen::Vector3f& p : points) ++first_[index(cell_of(p)) + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-    members_.resize(points.size());
-    for (uint32_t i = 0; i < points.size(); ++i) members_[next[index(cell_of(points[i]))]++] = i;
-  }
-  /// Calls visit(i) for each point in the 27 cells around `p`, which must be one of them.
-  template <typename Visit>
-  void visit_near(const Eigen::Vector3f& p, const Visit& visit) const {
-    const Eigen::Array3i cell = cell_of(p), from = (cell - 1).max(0), to = (cell + 1).min(size_ - 1);
-    for (int z = from.z(); z <= to.z(); ++z)
-      for (int y = from.y(); y <= to.y(); ++y) {
-        const uint32_t begin = first_[index({from.x(), y, z})], end = first_[index({to.x(), y, z}) + 1];
-        for (uint32_t m = begin; m < end; ++m) visit(members_[m]);
-      }
-  }
-
- private:
-  Eigen::Array3i cell_of(const Eigen::Vector3f& p) const {
-    return ((p - low_) * inverse_cell_).array().floor().cast<int>().max(0).min(size_ - 1);
-  }
-  size_t index(const Eigen::Array3i& c) const {
-    return (static_cast<size_t>(c.z()) * size_.y() + c.y()) * size_.x() + c.x();
-  }
-
-  float inverse_cell_;
-  Eigen::Vector3f low_;
-  Eigen::Array3i size_;
-  std::vector<uint32_t> first_, members_;
-};
-
-/// Single-linkage clusters: for each point the number of its cluster.
-std::vector<uint32_t> link_clusters(const std::vector<Eigen::Vector3f>& points, float link) {
-  if (points.empty()) return {};
-  const BoxGrid grid(points, link);
-  std::vector<uint32_t> cluster(points.size(), ~0u);
-  uint32_t count = 0;
-  for (uint32_t seed = 0; seed < points.size(); ++seed) {
-    if (cluster[seed] != ~0u) continue;
-    std::vector<uint32_t> open = {seed};
-    cluster[seed] = count;
-    while (!open.empty()) {
-      const uint32_t at = open.back();
-      open.pop_back();
-      grid.visit_near(points[at], [&](uint32_t k) {
-        if (cluster[k] == ~0u && (points[k] - points[at]).squaredNorm() < link * link)
-          cluster[k] = count, open.push_back(k);
-      });
-    }
-    ++count;
-  }
-  return cluster;
-}
 
 /// The pixels that a box may cover; all of the image if it reaches behind the camera.
 Eigen::AlignedBox2i pixels_of(const Scene::Data& scene, const Eigen::AlignedBox3f& box) {
