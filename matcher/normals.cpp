@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<int, 6> kOffsets = {-5, -3, -1, 1, 3, 5};  // pixels
 constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that still is one surface (72 degrees)
 constexpr int kMinNeighbours = 12;  // of 36
-constexpr int kRowsPerJob = 16;
+constexpr int kRowsPerJob = 32;
 constexpr int kNoiseStride = 5;          // pixels between two whose residuals are looked at, and
 constexpr int kNoiseRows = 4;            // rows: ten thousands of samples are plenty
 constexpr size_t kMinNoiseSamples = 50;  // in a range of depth
@@ -50,30 +50,29 @@ struct RowSums {
   std::vector<float> n, x, y, xx, xy, yy, w, xw, yw, ww;
 };
 
-/// Inverse depth with a margin of pixels without measurement, so that no neighbour needs a bounds check.
-/// In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
-struct InverseDepth {
-  InverseDepth(const Scene::Data& scene, int threads)
-      : stride(static_cast<size_t>(scene.width + 2 * kMargin)),
-        values(stride * static_cast<size_t>(scene.height + 2 * kMargin), 0.f) {
-    parallel_for(static_cast<size_t>((scene.height + kRowsAtOnce - 1) / kRowsAtOnce), threads,
-                 [&](size_t job) {
-                   const int first = static_cast<int>(job) * kRowsAtOnce,
-                             last = std::min(scene.height, first + kRowsAtOnce);
-                   for (int v = first; v < last; ++v) {
-                     const float* depth = scene.depth.data() + scene.index(0, v);
-                     float* out = values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
-                     for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
-                   }
-                 });
+/// Inverse depth of some rows with a margin of pixels without measurement, so that no neighbour needs a
+/// bounds check. In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
+class InverseDepth {
+ public:
+  InverseDepth(const Scene::Data& scene, int first, int last)
+      : first_(first - kMargin),
+        stride_(static_cast<size_t>(scene.width + 2 * kMargin)),
+        values_(stride_ * static_cast<size_t>(last - first + 2 * kMargin), 0.f) {
+    for (int v = std::max(0, first_); v < std::min(scene.height, last + kMargin); ++v) {
+      const float* depth = scene.depth.data() + scene.index(0, v);
+      float* out = values_.data() + at(v);
+      for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
+    }
   }
-  const float* row(int v) const {
-    return values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
-  }
+  const float* row(int v) const { return values_.data() + at(v); }
 
-  static constexpr int kMargin = kOffsets.back(), kRowsAtOnce = 64;
-  size_t stride;
-  std::vector<float> values;
+ private:
+  static constexpr int kMargin = kOffsets.back();
+  size_t at(int v) const { return static_cast<size_t>(v - first_) * stride_ + kMargin; }
+
+  int first_;
+  size_t stride_;
+  std::vector<float> values_;
 };
 
 /// Adds the six neighbours in row v + dv of every pixel of row v, those that lie on the same surface.
@@ -176,25 +175,48 @@ std::array<std::vector<float>, NoiseCurve::kBins> second_differences(const Scene
   return samples;
 }
 
-/// The median residual of the plane fits in each range of depth, but no more than a few times what
-/// neighbouring pixels differ by: a scene of small curved objects has no planes to read the noise from.
-/// Ranges with little data take their neighbour's.
-NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals) {
-  std::array<std::vector<float>, NoiseCurve::kBins> samples;
+/// Values by range of depth.
+template <typename T>
+using ByDepth = std::array<T, NoiseCurve::kBins>;
+
+/// The median of the residuals in each range of depth; none where there are too few.
+/// `residuals`: of every kNoiseRows-th row.
+ByDepth<std::optional<float>> median_residuals(const Scene::Data& scene,
+                                               const std::vector<float>& residuals) {
+  ByDepth<std::vector<float>> samples;
   for (int v = 0; v < scene.height; v += kNoiseRows)
     for (int u = v % kNoiseStride; u < scene.width; u += kNoiseStride) {
-      const size_t i = scene.index(u, v);
-      if (residuals[i] >= 0) samples[NoiseCurve::bin(scene.depth[i])].push_back(residuals[i]);
+      const float residual = residuals[scene.index(u, v / kNoiseRows)];
+      if (residual >= 0) samples[NoiseCurve::bin(scene.depth[scene.index(u, v)])].push_back(residual);
     }
-  auto differences = second_differences(scene);
-  NoiseCurve curve;
-  for (int b = 0; b < NoiseCurve::kBins; ++b) {
+  ByDepth<std::optional<float>> medians;
+  for (size_t b = 0; b < samples.size(); ++b) {
     auto& s = samples[b];
     if (s.size() < kMinNoiseSamples) continue;
     std::nth_element(s.begin(), s.begin() + static_cast<long>(s.size() / 2), s.end());
-    curve.sigma[b] = s[s.size() / 2];
-    if (const auto pixel_noise = noise_of_differences(differences[b]))
-      curve.sigma[b] = std::min(curve.sigma[b], kCorrelated * *pixel_noise);
+    medians[b] = s[s.size() / 2];
+  }
+  return medians;
+}
+
+/// The median residual of the plane fits in each range of depth, but no more than a few times what
+/// neighbouring pixels differ by: a scene of small curved objects has no planes to read the noise from.
+/// Ranges with little data take their neighbour's.
+NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals, int threads) {
+  ByDepth<std::optional<float>> of_planes, of_pixels;
+  parallel_for(2, threads, [&](size_t job) {
+    if (job == 1) {
+      of_planes = median_residuals(scene, residuals);
+      return;
+    }
+    auto differences = second_differences(scene);
+    for (size_t b = 0; b < differences.size(); ++b) of_pixels[b] = noise_of_differences(differences[b]);
+  });
+  NoiseCurve curve;
+  for (int b = 0; b < NoiseCurve::kBins; ++b) {
+    if (!of_planes[b]) continue;
+    curve.sigma[b] = *of_planes[b];
+    if (of_pixels[b]) curve.sigma[b] = std::min(curve.sigma[b], kCorrelated * *of_pixels[b]);
   }
   for (int b = 1; b < NoiseCurve::kBins; ++b)
     if (curve.sigma[b] <= 0) curve.sigma[b] = curve.sigma[b - 1];
@@ -207,30 +229,32 @@ NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& resid
 
 void estimate_normals(Scene::Data& scene, int threads) {
   const size_t pixels = scene.depth.size(), width = static_cast<size_t>(scene.width);
-  const InverseDepth inverse(scene, threads);
   // A slope s changes the inverse depth by s / (f z) a pixel.
   const Intrinsics intrinsics(scene.camera);
   const float slope = kMaxSlope / static_cast<float>(scene.camera.fx);
   scene.normals.resize(pixels);
   scene.smooth_depth.resize(pixels);
-  std::vector<float> residuals(pixels);
+  std::vector<float> residuals(width * static_cast<size_t>((scene.height + kNoiseRows - 1) / kNoiseRows));
   const size_t jobs = static_cast<size_t>((scene.height + kRowsPerJob - 1) / kRowsPerJob);
   parallel_for(jobs, threads, [&](size_t job) {
     RowSums sums(width);
-    std::vector<float> nx(width), ny(width), nz(width);
+    std::vector<float> nx(width), ny(width), nz(width), unused(width);
     const int first = static_cast<int>(job) * kRowsPerJob, last = std::min(scene.height, first + kRowsPerJob);
+    const InverseDepth inverse(scene, first, last);
     for (int v = first; v < last; ++v) {
       const size_t at = scene.index(0, v);
       sums.clear();
       for (int dv : kOffsets)
         add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope,
                           sums);
+      float* residual =
+          v % kNoiseRows == 0 ? residuals.data() + scene.index(0, v / kNoiseRows) : unused.data();
       fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics,
-                 {nx.data(), ny.data(), nz.data(), scene.smooth_depth.data() + at, residuals.data() + at});
+                 {nx.data(), ny.data(), nz.data(), scene.smooth_depth.data() + at, residual});
       for (size_t u = 0; u < width; ++u) scene.normals[at + u] = {nx[u], ny[u], nz[u]};
     }
   });
-  scene.noise = noise_curve(scene, residuals);
+  scene.noise = noise_curve(scene, residuals, threads);
 }
 
 }  // namespace edgepose
