@@ -5,13 +5,14 @@
 #include <numeric>
 #include <optional>
 
+#include "matcher/lanes.h"
+#include "matcher/neighbour_sums.h"
 #include "matcher/parallel.h"
 #include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
 
-constexpr std::array<int, 6> kOffsets = {-5, -3, -1, 1, 3, 5};  // pixels
 constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that still is one surface (72 degrees)
 constexpr int kMinNeighbours = 12;  // of 36
 constexpr int kRowsPerJob = 32;
@@ -30,26 +31,6 @@ struct Intrinsics {
         cy(static_cast<float>(c.cy)) {}
 };
 
-/// Sums of the least-squares fit w = a du + b dv + c for each pixel of a row; structure of arrays, so that
-/// the compiler vectorises over the pixels.
-struct RowSums {
-  explicit RowSums(size_t width)
-      : n(width),
-        x(width),
-        y(width),
-        xx(width),
-        xy(width),
-        yy(width),
-        w(width),
-        xw(width),
-        yw(width),
-        ww(width) {}
-  void clear() {
-    for (auto* sum : {&n, &x, &y, &xx, &xy, &yy, &w, &xw, &yw, &ww}) std::fill(sum->begin(), sum->end(), 0.f);
-  }
-  std::vector<float> n, x, y, xx, xy, yy, w, xw, yw, ww;
-};
-
 /// Inverse depth of some rows with a margin of pixels without measurement, so that no neighbour needs a
 /// bounds check. In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
 class InverseDepth {
@@ -57,54 +38,23 @@ class InverseDepth {
   InverseDepth(const Scene::Data& scene, int first, int last)
       : first_(first - kMargin),
         stride_(static_cast<size_t>(scene.width + 2 * kMargin)),
-        values_(stride_ * static_cast<size_t>(last - first + 2 * kMargin), 0.f) {
+        values_(stride_ * static_cast<size_t>(last - first + 2 * kMargin) + kLanes, kNoInverseDepth) {
     for (int v = std::max(0, first_); v < std::min(scene.height, last + kMargin); ++v) {
       const float* depth = scene.depth.data() + scene.index(0, v);
       float* out = values_.data() + at(v);
-      for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
+      for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : kNoInverseDepth;
     }
   }
   const float* row(int v) const { return values_.data() + at(v); }
 
  private:
-  static constexpr int kMargin = kOffsets.back();
+  static constexpr int kMargin = kNeighbourOffsets.back();
   size_t at(int v) const { return static_cast<size_t>(v - first_) * stride_ + kMargin; }
 
   int first_;
   size_t stride_;
   std::vector<float> values_;
 };
-
-/// Adds the six neighbours in row v + dv of every pixel of row v, those that lie on the same surface.
-/// `slope`: largest change of inverse depth for each pixel and unit of inverse depth.
-EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* other, int width, float dv,
-                                          float slope, RowSums& sums) {
-  float *n = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
-        *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
-        *yw = sums.yw.data(), *ww = sums.ww.data();
-  std::array<float, kOffsets.size()> reach;
-  for (size_t k = 0; k < kOffsets.size(); ++k) {
-    const float du = static_cast<float>(kOffsets[k]);
-    reach[k] = slope * (std::sqrt(du * du + dv * dv) + 2.f);  // the two pixels more absorb noise
-  }
-  EDGEPOSE_NO_OVERLAP
-  for (int u = 0; u < width; ++u) {
-    float rn = 0, rx = 0, rxx = 0, rw = 0, rxw = 0, rww = 0;
-#pragma GCC unroll 6
-    for (size_t k = 0; k < kOffsets.size(); ++k) {
-      const float du = static_cast<float>(kOffsets[k]);
-      const float beside = other[u + kOffsets[k]];
-      const float difference = beside - centre[u];  // relative to the centre: keeps single precision accurate
-      const float limit = beside > 0.f ? centre[u] * reach[k] : -1.f;
-      const float m = std::abs(difference) < limit ? 1.f : 0.f;
-      const float d = m * difference;
-      rn += m, rx += m * du, rxx += m * (du * du);
-      rw += d, rxw += du * d, rww += d * d;
-    }
-    n[u] += rn, x[u] += rx, xx[u] += rxx, w[u] += rw, xw[u] += rxw, ww[u] += rww;
-    y[u] += dv * rn, yy[u] += dv * dv * rn, xy[u] += dv * rx, yw[u] += dv * rw;
-  }
-}
 
 /// The fitted planes of a row: unit normal towards the camera, depth at the pixel [m], residual [m]
 /// (negative: no fit; then all else is zero).
@@ -113,7 +63,7 @@ struct RowPlanes {
 };
 
 /// Solves the fits of row v.
-EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, int width, float v,
+EDGEPOSE_WIDE_SIMD void fit_planes(const NeighbourSums& sums, const float* inverse, int width, float v,
                                    Intrinsics camera, RowPlanes planes) {
   const float *sn = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
               *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
@@ -231,22 +181,21 @@ void estimate_normals(Scene::Data& scene, int threads) {
   const size_t pixels = scene.depth.size(), width = static_cast<size_t>(scene.width);
   // A slope s changes the inverse depth by s / (f z) a pixel.
   const Intrinsics intrinsics(scene.camera);
-  const float slope = kMaxSlope / static_cast<float>(scene.camera.fx);
+  const SurfaceReach reach(kMaxSlope / static_cast<float>(scene.camera.fx));
   scene.normals.resize(pixels);
   scene.smooth_depth.resize(pixels);
   std::vector<float> residuals(width * static_cast<size_t>((scene.height + kNoiseRows - 1) / kNoiseRows));
   const size_t jobs = static_cast<size_t>((scene.height + kRowsPerJob - 1) / kRowsPerJob);
   parallel_for(jobs, threads, [&](size_t job) {
-    RowSums sums(width);
+    NeighbourSums sums(width);
     std::vector<float> nx(width), ny(width), nz(width), unused(width);
     const int first = static_cast<int>(job) * kRowsPerJob, last = std::min(scene.height, first + kRowsPerJob);
     const InverseDepth inverse(scene, first, last);
     for (int v = first; v < last; ++v) {
       const size_t at = scene.index(0, v);
-      sums.clear();
-      for (int dv : kOffsets)
-        add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope,
-                          sums);
+      std::array<const float*, kNeighbourOffsets.size()> rows;
+      for (size_t r = 0; r < rows.size(); ++r) rows[r] = inverse.row(v + kNeighbourOffsets[r]);
+      sum_neighbours(rows, inverse.row(v), reach, sums);
       float* residual =
           v % kNoiseRows == 0 ? residuals.data() + scene.index(0, v / kNoiseRows) : unused.data();
       fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics,
