@@ -1,5 +1,6 @@
 #include "matcher/large_planes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
@@ -37,19 +38,23 @@ struct PlaneQuery {
   float cosine;               // of the angle between the normals, at least
 };
 
-/// Adds up the area of the patches that continue the plane.
-EDGEPOSE_WIDE_SIMD int32_t area_on_plane(const Patches& patches, PlaneQuery q) {
+/// Adds up the area of the patches that continue the plane, until there is more than `enough`.
+EDGEPOSE_WIDE_SIMD int32_t area_on_plane(const Patches& patches, PlaneQuery q, int32_t enough) {
+  constexpr size_t kAtOnce = 128;
   const float *x = patches.x.data(), *y = patches.y.data(), *z = patches.z.data(), *nx = patches.nx.data(),
               *ny = patches.ny.data(), *nz = patches.nz.data();
   const int32_t* areas = patches.area.data();
   const size_t count = patches.area.size();
   int32_t area = 0;
-  for (size_t k = 0; k < count; ++k) {
-    const float dx = x[k] - q.x, dy = y[k] - q.y, dz = z[k] - q.z;
-    int32_t counted = std::abs(dx * q.nx + dy * q.ny + dz * q.nz) < q.tolerance ? areas[k] : 0;
-    counted = dx * dx + dy * dy + dz * dz < q.reach * q.reach ? counted : 0;
-    counted = nx[k] * q.nx + ny[k] * q.ny + nz[k] * q.nz > q.cosine ? counted : 0;
-    area += counted;
+  for (size_t first = 0; first < count && area <= enough; first += kAtOnce) {
+    const size_t last = std::min(count, first + kAtOnce);
+    for (size_t k = first; k < last; ++k) {
+      const float dx = x[k] - q.x, dy = y[k] - q.y, dz = z[k] - q.z;
+      int32_t counted = std::abs(dx * q.nx + dy * q.ny + dz * q.nz) < q.tolerance ? areas[k] : 0;
+      counted = dx * dx + dy * dy + dz * dz < q.reach * q.reach ? counted : 0;
+      counted = nx[k] * q.nx + ny[k] * q.ny + nz[k] * q.nz > q.cosine ? counted : 0;
+      area += counted;
+    }
   }
   return area;
 }
@@ -60,7 +65,7 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
                                             const NoiseCurve& noise, int threads) {
   constexpr float kPatch = 0.25f;      // [d] the scene is summed up in patches of this size first
   constexpr float kReach = 1.25f;      // [d] how far around a point its plane is followed
-  constexpr float kMaxObjectArea = 1;  // [d^2] a plane face of an object covers at most pi / 4
+  constexpr int32_t kMaxArea = 10000;  // [kAreaUnit d^2] a plane face of an object covers at most pi / 4
   constexpr float kCosine = 0.97f;     // 14 degrees
   const float area_unit = kAreaUnit * diameter * diameter;
   NormalClusterGrid grid(kPatch * diameter, 10, points.size() / 4);
@@ -82,17 +87,23 @@ std::vector<SampledPoint> drop_large_planes(const std::vector<SampledPoint>& poi
 
   std::vector<char> background(points.size(), 0);
   parallel_for(jobs.size(), threads, [&](size_t job) {
+    Eigen::AlignedBox3f box;
+    for (uint32_t i : *jobs[job]) box.extend(points[i].surface.position);
     Patches near;
+    int64_t total = 0;
     patch_grid.visit_near(points[jobs[job]->front()].surface.position, [&](uint32_t k) {
+      if (box.exteriorDistance(patches[k].surface.position) > 1.001f * reach) return true;
       near.add(patches[k], std::min(patches[k].area / area_unit, kMaxPatchArea));
+      total += near.area.back();
       return true;
     });
+    if (total <= kMaxArea) return;
     for (uint32_t i : *jobs[job]) {
       const Eigen::Vector3f &p = points[i].surface.position, &n = points[i].surface.normal;
       const float tolerance = 0.02f * diameter + 2 * noise.at(p.z());
-      const int32_t area =
-          area_on_plane(near, {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), tolerance, reach, kCosine});
-      background[i] = static_cast<float>(area) * kAreaUnit > kMaxObjectArea;
+      const int32_t area = area_on_plane(
+          near, {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), tolerance, reach, kCosine}, kMaxArea);
+      background[i] = area > kMaxArea;
     }
   });
   std::vector<SampledPoint> kept;
