@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "matcher/normal_clusters.h"
 #include "matcher/parallel.h"
@@ -10,8 +11,10 @@
 namespace edgepose {
 namespace {
 
-constexpr size_t kStrips = 8;           // fixed, so that the result does not depend on the threads
-constexpr size_t kPixelsOfCluster = 8;  // about; for the size of the hash table
+constexpr size_t kStrips = 8;  // fixed, so that the result does not depend on the threads
+
+/// For the size of the hash table: enough for nearly all images, but small enough to stay in the cache.
+size_t expected_clusters(size_t pixels) { return std::min<size_t>(pixels / 4, 8192); }
 
 /// What one row of pixels is seen with.
 struct RowView {
@@ -95,6 +98,22 @@ EDGEPOSE_WIDE_SIMD void place_points(PixelRow& row, const RowView& view) {
   }
 }
 
+/// Takes over depths, edges and normals of every stride-th pixel; faster with a stride known at compile time.
+template <typename Stride>
+void read_pixels(PixelRow& row, const float* depth, const EdgeKind* edges, const Eigen::Vector3f* normals,
+                 int first, Stride stride) {
+  float *z = row.z.data(), *edge = row.edge.data(), *nx = row.nx.data(), *ny = row.ny.data(),
+        *nz = row.nz.data();
+  const size_t count = row.key.size();
+  EDGEPOSE_NO_OVERLAP
+  for (size_t k = 0; k < count; ++k) {
+    const size_t u = static_cast<size_t>(first) + k * static_cast<size_t>(stride);
+    z[k] = depth[u];
+    edge[k] = edges[u] == EdgeKind::kNone ? 0.f : 1.f;
+    nx[k] = normals[u].x(), ny[k] = normals[u].y(), nz[k] = normals[u].z();
+  }
+}
+
 /// One strip of the finest level in the making.
 class StripSampler {
  public:
@@ -103,7 +122,7 @@ class StripSampler {
         how_(how),
         first_(how.stride / 2),
         row_(static_cast<size_t>(std::max(0, scene.width - first_ + how.stride - 1) / how.stride)),
-        grid_(how.cell, how.theta_deg, row_.key.size() * static_cast<size_t>(rows) / kPixelsOfCluster) {
+        grid_(how.cell, how.theta_deg, expected_clusters(row_.key.size() * static_cast<size_t>(rows))) {
     for (size_t k = 0; k < row_.key.size(); ++k) row_.ray_x[k] = scene.ray(column(k), 0).x();
     for (int b = 0; b < NoiseCurve::kBins; ++b)
       usable_ |= (scene.noise.sigma[b] <= how.max_noise ? 1u : 0u) << b;
@@ -113,12 +132,10 @@ class StripSampler {
     const float* depth = scene_.smooth_depth.data() + scene_.index(0, v);
     const EdgeKind* edges = scene_.edges.data() + scene_.index(0, v);
     const Eigen::Vector3f* normals = scene_.normals.data() + scene_.index(0, v);
-    for (size_t k = 0; k < row_.key.size(); ++k) {
-      const auto u = static_cast<size_t>(column(k));
-      row_.z[k] = depth[u];
-      row_.edge[k] = edges[u] == EdgeKind::kNone ? 0.f : 1.f;
-      row_.nx[k] = normals[u].x(), row_.ny[k] = normals[u].y(), row_.nz[k] = normals[u].z();
-    }
+    if (how_.stride == 1)
+      read_pixels(row_, depth, edges, normals, 0, std::integral_constant<int, 1>());
+    else
+      read_pixels(row_, depth, edges, normals, first_, how_.stride);
     place_points(row_, {scene_.ray(0, v).y(), static_cast<float>(scene_.camera.fx),
                         static_cast<float>(how_.stride), how_.max_pixel_size, grid_.inverse_cell(), usable_});
     number_cells();
