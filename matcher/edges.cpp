@@ -26,23 +26,25 @@ float continued_depth(const Scene::Data& scene, int u, int v, int nu, int nv) {
   return normal.dot(scene.smooth_point(u, v)) / slant;
 }
 
-/// Marks the pixels of row v near which something could be an outline: a hole, or a step that is large
-/// enough, in one of the four directions. Few pixels are left to look at closely.
-EDGEPOSE_WIDE_SIMD void mark_steps(const float* centre, std::array<const float*, 2 * kGap> rows, int width,
-                                   float jump_for_depth, uint8_t* marked) {
+/// The pixels one to kGap away in one of the four directions.
+struct Beside {
+  std::array<const float*, kGap> depth;  // rows, shifted
+};
+
+/// Marks the pixels of row v that could be an outline: nothing measured as far as a jump can hide, or a step
+/// that is large enough, in one of the four directions. Few pixels are left to look at closely.
+EDGEPOSE_WIDE_SIMD void mark_steps(const float* centre, std::array<Beside, kDirections.size()> sides,
+                                   int width, float jump_for_depth, uint8_t* marked) {
+  EDGEPOSE_NO_OVERLAP
   for (int u = kGap; u < width - kGap; ++u) {
-    float least = centre[u], most = centre[u];
-#pragma GCC unroll 3
-    for (int k = 1; k <= kGap; ++k) {
-      least = std::min(least, std::min(centre[u - k], centre[u + k]));
-      most = std::max(most, std::max(centre[u - k], centre[u + k]));
+    float emptiest = centre[u], most = centre[u];
+#pragma GCC unroll 4
+    for (const Beside& side : sides) {
+      const float highest = std::max(std::max(side.depth[0][u], side.depth[1][u]), side.depth[2][u]);
+      emptiest = std::min(emptiest, highest);
+      most = std::max(most, highest);
     }
-#pragma GCC unroll 6
-    for (const float* row : rows) {
-      least = std::min(least, row[u]);
-      most = std::max(most, row[u]);
-    }
-    marked[u] = least <= 0 || most > centre[u] + jump_for_depth * centre[u] ? 1 : 0;
+    marked[u] = emptiest <= 0 || most > centre[u] + jump_for_depth * centre[u] ? 1 : 0;
   }
 }
 
@@ -51,12 +53,11 @@ void mark_row(const Scene::Data& scene, int v, std::vector<uint8_t>& marked) {
   std::fill(marked.begin(), marked.end(), uint8_t{1});
   if (v < kGap || v >= scene.height - kGap) return;
   const float* centre = scene.depth.data() + scene.index(0, v);
-  std::array<const float*, 2 * kGap> rows;
-  for (int k = 0; k < kGap; ++k) {
-    rows[2 * k] = centre - (k + 1) * scene.width;
-    rows[2 * k + 1] = centre + (k + 1) * scene.width;
-  }
-  mark_steps(centre, rows, scene.width, scene.pixel_size(kJumpPixels), marked.data());
+  std::array<Beside, kDirections.size()> sides;
+  for (size_t i = 0; i < sides.size(); ++i)
+    for (int k = 0; k < kGap; ++k)
+      sides[i].depth[k] = centre + (k + 1) * (kDirections[i][0] + kDirections[i][1] * scene.width);
+  mark_steps(centre, sides, scene.width, scene.pixel_size(kJumpPixels), marked.data());
 }
 
 EdgeKind outline_kind(const Scene::Data& scene, int u, int v) {
@@ -145,10 +146,18 @@ void mark_crease_row(const Scene::Data& scene, const NormalRows& normals, int v,
   }
 }
 
+constexpr int kPixelsAtOnce = 16;  // most of the image holds no edge
+
+bool nothing_marked(const uint8_t* stepped, const int32_t* creased, int count) {
+  int32_t any = 0;
+  for (int k = 0; k < count; ++k) any |= stepped[k] | creased[k];
+  return any == 0;
+}
+
 }  // namespace
 
 void detect_edges(Scene::Data& scene, int threads) {
-  scene.edges.resize(scene.depth.size());
+  scene.edges.assign(scene.depth.size(), EdgeKind::kNone);
   const size_t jobs = static_cast<size_t>((scene.height + kRowsPerEdgeJob - 1) / kRowsPerEdgeJob);
   parallel_for(jobs, threads, [&](size_t job) {
     const int first = static_cast<int>(job) * kRowsPerEdgeJob,
@@ -159,14 +168,16 @@ void detect_edges(Scene::Data& scene, int threads) {
     for (int v = first; v < last; ++v) {
       mark_row(scene, v, stepped);
       mark_crease_row(scene, normals, v, creased);
-      for (int u = 0; u < scene.width; ++u) {
-        const size_t at = scene.index(u, v);
-        EdgeKind kind = EdgeKind::kNone;
-        if (scene.smooth_depth[at] > 0) {
-          if (stepped[u]) kind = outline_kind(scene, u, v);
-          if (kind == EdgeKind::kNone && creased[u]) kind = EdgeKind::kCrease;
+      for (int u = 0; u < scene.width; u += kPixelsAtOnce) {
+        const int end = std::min(u + kPixelsAtOnce, scene.width);
+        if (nothing_marked(stepped.data() + u, creased.data() + u, end - u)) continue;
+        for (int k = u; k < end; ++k) {
+          const size_t at = scene.index(k, v);
+          if (scene.smooth_depth[at] <= 0) continue;
+          EdgeKind kind = stepped[k] ? outline_kind(scene, k, v) : EdgeKind::kNone;
+          if (kind == EdgeKind::kNone && creased[k]) kind = EdgeKind::kCrease;
+          scene.edges[at] = kind;
         }
-        scene.edges[at] = kind;
       }
     }
   });

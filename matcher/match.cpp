@@ -8,6 +8,7 @@
 
 #include "matcher/clustering.h"
 #include "matcher/detection.h"
+#include "matcher/large_planes.h"
 #include "matcher/paper_verification.h"
 #include "matcher/parallel.h"
 #include "matcher/scene_sampling.h"

@@ -5,16 +5,17 @@
 #include <numeric>
 #include <optional>
 
+#include "matcher/lanes.h"
+#include "matcher/neighbour_sums.h"
 #include "matcher/parallel.h"
 #include "matcher/wide_simd.h"
 
 namespace edgepose {
 namespace {
 
-constexpr std::array<int, 6> kOffsets = {-5, -3, -1, 1, 3, 5};  // pixels
 constexpr float kMaxSlope = 3.f;  // depth change over lateral distance that still is one surface (72 degrees)
 constexpr int kMinNeighbours = 12;  // of 36
-constexpr int kRowsPerJob = 16;
+constexpr int kRowsPerJob = 32;
 constexpr int kNoiseStride = 5;          // pixels between two whose residuals are looked at, and
 constexpr int kNoiseRows = 4;            // rows: ten thousands of samples are plenty
 constexpr size_t kMinNoiseSamples = 50;  // in a range of depth
@@ -30,82 +31,30 @@ struct Intrinsics {
         cy(static_cast<float>(c.cy)) {}
 };
 
-/// Sums of the least-squares fit w = a du + b dv + c for each pixel of a row; structure of arrays, so that
-/// the compiler vectorises over the pixels.
-struct RowSums {
-  explicit RowSums(size_t width)
-      : n(width),
-        x(width),
-        y(width),
-        xx(width),
-        xy(width),
-        yy(width),
-        w(width),
-        xw(width),
-        yw(width),
-        ww(width) {}
-  void clear() {
-    for (auto* sum : {&n, &x, &y, &xx, &xy, &yy, &w, &xw, &yw, &ww}) std::fill(sum->begin(), sum->end(), 0.f);
-  }
-  std::vector<float> n, x, y, xx, xy, yy, w, xw, yw, ww;
-};
-
-/// Inverse depth with a margin of pixels without measurement, so that no neighbour needs a bounds check.
-/// In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
-struct InverseDepth {
-  InverseDepth(const Scene::Data& scene, int threads)
-      : stride(static_cast<size_t>(scene.width + 2 * kMargin)),
-        values(stride * static_cast<size_t>(scene.height + 2 * kMargin), 0.f) {
-    parallel_for(static_cast<size_t>((scene.height + kRowsAtOnce - 1) / kRowsAtOnce), threads,
-                 [&](size_t job) {
-                   const int first = static_cast<int>(job) * kRowsAtOnce,
-                             last = std::min(scene.height, first + kRowsAtOnce);
-                   for (int v = first; v < last; ++v) {
-                     const float* depth = scene.depth.data() + scene.index(0, v);
-                     float* out = values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
-                     for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : 0.f;
-                   }
-                 });
-  }
-  const float* row(int v) const {
-    return values.data() + static_cast<size_t>(v + kMargin) * stride + kMargin;
-  }
-
-  static constexpr int kMargin = kOffsets.back(), kRowsAtOnce = 64;
-  size_t stride;
-  std::vector<float> values;
-};
-
-/// Adds the six neighbours in row v + dv of every pixel of row v, those that lie on the same surface.
-/// `slope`: largest change of inverse depth for each pixel and unit of inverse depth.
-EDGEPOSE_WIDE_SIMD void add_neighbour_row(const float* centre, const float* other, int width, float dv,
-                                          float slope, RowSums& sums) {
-  float *n = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
-        *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
-        *yw = sums.yw.data(), *ww = sums.ww.data();
-  std::array<float, kOffsets.size()> reach;
-  for (size_t k = 0; k < kOffsets.size(); ++k) {
-    const float du = static_cast<float>(kOffsets[k]);
-    reach[k] = slope * (std::sqrt(du * du + dv * dv) + 2.f);  // the two pixels more absorb noise
-  }
-  EDGEPOSE_NO_OVERLAP
-  for (int u = 0; u < width; ++u) {
-    float rn = 0, rx = 0, rxx = 0, rw = 0, rxw = 0, rww = 0;
-#pragma GCC unroll 6
-    for (size_t k = 0; k < kOffsets.size(); ++k) {
-      const float du = static_cast<float>(kOffsets[k]);
-      const float beside = other[u + kOffsets[k]];
-      const float difference = beside - centre[u];  // relative to the centre: keeps single precision accurate
-      const float limit = beside > 0.f ? centre[u] * reach[k] : -1.f;
-      const float m = std::abs(difference) < limit ? 1.f : 0.f;
-      const float d = m * difference;
-      rn += m, rx += m * du, rxx += m * (du * du);
-      rw += d, rxw += du * d, rww += d * d;
+/// Inverse depth of some rows with a margin of pixels without measurement, so that no neighbour needs a
+/// bounds check. In inverse depth a plane is linear in the pixel coordinates, whatever its slope.
+class InverseDepth {
+ public:
+  InverseDepth(const Scene::Data& scene, int first, int last)
+      : first_(first - kMargin),
+        stride_(static_cast<size_t>(scene.width + 2 * kMargin)),
+        values_(stride_ * static_cast<size_t>(last - first + 2 * kMargin) + kLanes, kNoInverseDepth) {
+    for (int v = std::max(0, first_); v < std::min(scene.height, last + kMargin); ++v) {
+      const float* depth = scene.depth.data() + scene.index(0, v);
+      float* out = values_.data() + at(v);
+      for (int u = 0; u < scene.width; ++u) out[u] = depth[u] > 0 ? 1 / depth[u] : kNoInverseDepth;
     }
-    n[u] += rn, x[u] += rx, xx[u] += rxx, w[u] += rw, xw[u] += rxw, ww[u] += rww;
-    y[u] += dv * rn, yy[u] += dv * dv * rn, xy[u] += dv * rx, yw[u] += dv * rw;
   }
-}
+  const float* row(int v) const { return values_.data() + at(v); }
+
+ private:
+  static constexpr int kMargin = kNeighbourOffsets.back();
+  size_t at(int v) const { return static_cast<size_t>(v - first_) * stride_ + kMargin; }
+
+  int first_;
+  size_t stride_;
+  std::vector<float> values_;
+};
 
 /// The fitted planes of a row: unit normal towards the camera, depth at the pixel [m], residual [m]
 /// (negative: no fit; then all else is zero).
@@ -114,7 +63,7 @@ struct RowPlanes {
 };
 
 /// Solves the fits of row v.
-EDGEPOSE_WIDE_SIMD void fit_planes(const RowSums& sums, const float* inverse, int width, float v,
+EDGEPOSE_WIDE_SIMD void fit_planes(const NeighbourSums& sums, const float* inverse, int width, float v,
                                    Intrinsics camera, RowPlanes planes) {
   const float *sn = sums.n.data(), *x = sums.x.data(), *y = sums.y.data(), *xx = sums.xx.data(),
               *xy = sums.xy.data(), *yy = sums.yy.data(), *w = sums.w.data(), *xw = sums.xw.data(),
@@ -176,25 +125,48 @@ std::array<std::vector<float>, NoiseCurve::kBins> second_differences(const Scene
   return samples;
 }
 
-/// The median residual of the plane fits in each range of depth, but no more than a few times what
-/// neighbouring pixels differ by: a scene of small curved objects has no planes to read the noise from.
-/// Ranges with little data take their neighbour's.
-NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals) {
-  std::array<std::vector<float>, NoiseCurve::kBins> samples;
+/// Values by range of depth.
+template <typename T>
+using ByDepth = std::array<T, NoiseCurve::kBins>;
+
+/// The median of the residuals in each range of depth; none where there are too few.
+/// `residuals`: of every kNoiseRows-th row.
+ByDepth<std::optional<float>> median_residuals(const Scene::Data& scene,
+                                               const std::vector<float>& residuals) {
+  ByDepth<std::vector<float>> samples;
   for (int v = 0; v < scene.height; v += kNoiseRows)
     for (int u = v % kNoiseStride; u < scene.width; u += kNoiseStride) {
-      const size_t i = scene.index(u, v);
-      if (residuals[i] >= 0) samples[NoiseCurve::bin(scene.depth[i])].push_back(residuals[i]);
+      const float residual = residuals[scene.index(u, v / kNoiseRows)];
+      if (residual >= 0) samples[NoiseCurve::bin(scene.depth[scene.index(u, v)])].push_back(residual);
     }
-  auto differences = second_differences(scene);
-  NoiseCurve curve;
-  for (int b = 0; b < NoiseCurve::kBins; ++b) {
+  ByDepth<std::optional<float>> medians;
+  for (size_t b = 0; b < samples.size(); ++b) {
     auto& s = samples[b];
     if (s.size() < kMinNoiseSamples) continue;
     std::nth_element(s.begin(), s.begin() + static_cast<long>(s.size() / 2), s.end());
-    curve.sigma[b] = s[s.size() / 2];
-    if (const auto pixel_noise = noise_of_differences(differences[b]))
-      curve.sigma[b] = std::min(curve.sigma[b], kCorrelated * *pixel_noise);
+    medians[b] = s[s.size() / 2];
+  }
+  return medians;
+}
+
+/// The median residual of the plane fits in each range of depth, but no more than a few times what
+/// neighbouring pixels differ by: a scene of small curved objects has no planes to read the noise from.
+/// Ranges with little data take their neighbour's.
+NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& residuals, int threads) {
+  ByDepth<std::optional<float>> of_planes, of_pixels;
+  parallel_for(2, threads, [&](size_t job) {
+    if (job == 1) {
+      of_planes = median_residuals(scene, residuals);
+      return;
+    }
+    auto differences = second_differences(scene);
+    for (size_t b = 0; b < differences.size(); ++b) of_pixels[b] = noise_of_differences(differences[b]);
+  });
+  NoiseCurve curve;
+  for (int b = 0; b < NoiseCurve::kBins; ++b) {
+    if (!of_planes[b]) continue;
+    curve.sigma[b] = *of_planes[b];
+    if (of_pixels[b]) curve.sigma[b] = std::min(curve.sigma[b], kCorrelated * *of_pixels[b]);
   }
   for (int b = 1; b < NoiseCurve::kBins; ++b)
     if (curve.sigma[b] <= 0) curve.sigma[b] = curve.sigma[b - 1];
@@ -207,30 +179,31 @@ NoiseCurve noise_curve(const Scene::Data& scene, const std::vector<float>& resid
 
 void estimate_normals(Scene::Data& scene, int threads) {
   const size_t pixels = scene.depth.size(), width = static_cast<size_t>(scene.width);
-  const InverseDepth inverse(scene, threads);
   // A slope s changes the inverse depth by s / (f z) a pixel.
   const Intrinsics intrinsics(scene.camera);
-  const float slope = kMaxSlope / static_cast<float>(scene.camera.fx);
+  const SurfaceReach reach(kMaxSlope / static_cast<float>(scene.camera.fx));
   scene.normals.resize(pixels);
   scene.smooth_depth.resize(pixels);
-  std::vector<float> residuals(pixels);
+  std::vector<float> residuals(width * static_cast<size_t>((scene.height + kNoiseRows - 1) / kNoiseRows));
   const size_t jobs = static_cast<size_t>((scene.height + kRowsPerJob - 1) / kRowsPerJob);
   parallel_for(jobs, threads, [&](size_t job) {
-    RowSums sums(width);
-    std::vector<float> nx(width), ny(width), nz(width);
+    NeighbourSums sums(width);
+    std::vector<float> nx(width), ny(width), nz(width), unused(width);
     const int first = static_cast<int>(job) * kRowsPerJob, last = std::min(scene.height, first + kRowsPerJob);
+    const InverseDepth inverse(scene, first, last);
     for (int v = first; v < last; ++v) {
       const size_t at = scene.index(0, v);
-      sums.clear();
-      for (int dv : kOffsets)
-        add_neighbour_row(inverse.row(v), inverse.row(v + dv), scene.width, static_cast<float>(dv), slope,
-                          sums);
+      std::array<const float*, kNeighbourOffsets.size()> rows;
+      for (size_t r = 0; r < rows.size(); ++r) rows[r] = inverse.row(v + kNeighbourOffsets[r]);
+      sum_neighbours(rows, inverse.row(v), reach, sums);
+      float* residual =
+          v % kNoiseRows == 0 ? residuals.data() + scene.index(0, v / kNoiseRows) : unused.data();
       fit_planes(sums, inverse.row(v), scene.width, static_cast<float>(v), intrinsics,
-                 {nx.data(), ny.data(), nz.data(), scene.smooth_depth.data() + at, residuals.data() + at});
+                 {nx.data(), ny.data(), nz.data(), scene.smooth_depth.data() + at, residual});
       for (size_t u = 0; u < width; ++u) scene.normals[at + u] = {nx[u], ny[u], nz[u]};
     }
   });
-  scene.noise = noise_curve(scene, residuals);
+  scene.noise = noise_curve(scene, residuals, threads);
 }
 
 }  // namespace edgepose

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "matcher/edges.h"
 #include "matcher/normals.h"
+#include "matcher/parallel.h"
 #include "matcher/scene_data.h"
 
 namespace edgepose {
@@ -23,6 +26,26 @@ void check_input(const DepthImage& image, const Camera& camera, const SceneOptio
                                 std::to_string(camera.fx) + ", fy " + std::to_string(camera.fy));
 }
 
+/// Copies the depths that are in range and returns how many there are.
+size_t take_depth(const DepthImage& image, const SceneOptions& options, Scene::Data& scene) {
+  constexpr int kRowsPerDepthJob = 64;
+  scene.depth = image.depth;
+  std::vector<size_t> measured(static_cast<size_t>((image.height + kRowsPerDepthJob - 1) / kRowsPerDepthJob));
+  parallel_for(measured.size(), options.threads, [&](size_t job) {
+    const int first = static_cast<int>(job) * kRowsPerDepthJob,
+              last = std::min(image.height, first + kRowsPerDepthJob);
+    float* depth = scene.depth.data();
+    size_t count = 0;
+    for (size_t i = scene.index(0, first); i < scene.index(0, last); ++i) {
+      const bool usable = depth[i] >= options.min_depth && depth[i] <= options.max_depth;  // not NaN
+      depth[i] = usable ? depth[i] : 0.f;
+      count += usable;
+    }
+    measured[job] = count;
+  });
+  return std::accumulate(measured.begin(), measured.end(), size_t{0});
+}
+
 }  // namespace
 
 std::string SceneOptions::check() const {
@@ -40,12 +63,7 @@ Scene prepare_scene(const DepthImage& image, const Camera& camera, const SceneOp
   scene->width = image.width;
   scene->height = image.height;
   scene->camera = camera;
-  scene->depth = image.depth;
-  size_t measured = 0;
-  for (float& z : scene->depth) {
-    if (!(z >= options.min_depth && z <= options.max_depth)) z = 0;  // NaN too
-    measured += z > 0;
-  }
+  const size_t measured = take_depth(image, options, *scene);
   if (measured == 0)
     throw std::invalid_argument(
         "depth image: expected measurements between min_depth and max_depth, found none");

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "matcher/large_planes.h"
 #include "matcher/scene_sampling.h"
 #include "tests/matcher/fixtures.h"
 

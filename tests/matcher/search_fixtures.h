@@ -1,5 +1,6 @@
 #pragma once
 #include "matcher/candidate_search.h"
+#include "matcher/large_planes.h"
 #include "matcher/scene_sampling.h"
 #include "tests/matcher/fixtures.h"
 
