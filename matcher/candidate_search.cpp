@@ -215,14 +215,13 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
   s.coarse_icp.outline_stride = 3;
   s.coarse_icp.surface_sigma = std::max(noise, 0.002f * d);
   s.fine_icp = s.coarse_icp;
-  s.fine_icp.outline_stride = 2;
+  s.fine_icp.outline_stride = 1;
   s.fine_icp.max_points = kFullPoints;
   s.fine_icp.iterations = r.fine_iterations;
   s.fine_icp.max_distance = 0.025f * d + 2 * noise;
   s.fine_icp.min_distance = 0.008f * d + 2 * noise;
   s.fine_icp.outline_sigma_pixels = r.outline_sigma;
   s.last_icp = s.fine_icp;
-  s.last_icp.outline_stride = 1;
   s.last_icp.max_points = kAllPoints;
   s.last_icp.iterations = r.last_iterations;
   s.last_icp.max_distance = s.fine_icp.min_distance;

@@ -75,7 +75,7 @@ struct ToleranceOptions {
 /// ICP, coarse to fine, point to plane (paper Sec. 4.3.4, last step).
 struct RefinementOptions {
   bool enabled = true;       ///< false: poses are reported as they were voted for and averaged
-  int first_iterations = 2;  ///< before a voted pose is looked at
+  int first_iterations = 3;  ///< before a voted pose is looked at
   int coarse_iterations = 6;
   int fine_iterations = 10;
   int last_iterations = 8;  ///< with every model point, of what is reported
