@@ -7,6 +7,7 @@
 
 #include "matcher/clustering.h"
 #include "matcher/parallel.h"
+#include "matcher/sightings.h"
 #include "matcher/stopwatch.h"
 
 namespace edgepose {
@@ -14,8 +15,6 @@ namespace {
 
 // Dense points that are looked at: of a pose just voted for, refined coarsely, refined finely, reported.
 constexpr size_t kQuickPoints = 200, kMiddlePoints = 400, kFullPoints = 1500, kAllPoints = 1 << 20;
-// References: what a sighting stands for in acceptance_score(), and the fewest that it was fitted to.
-constexpr float kRound = 75, kFewest = 600;
 constexpr float kLikeDistance = 0.02f, kLikeAngle = 0.05f;  // [d], [rad] poses closer than this are one
 
 /// How many of the first `limit` dense points a view shows, for a view that shows much (90th percentile).
@@ -42,16 +41,6 @@ bool beyond_doubt(const Candidate& best, const SearchOptions& options) {
                      : best.sightings == 2 ? options.sure_twice
                                            : options.sure_thrice;
   return best.confidence > sure;
-}
-
-/// How many rounds of kRound references out of `references` would lead to a candidate that `sightings` of
-/// the first `looked` batches have led to. acceptance_score() was fitted to such counts; a search that ends
-/// early must not make a pose look less likely for that.
-float expected_rounds(int sightings, size_t looked, float batch, float references) {
-  const auto seen = static_cast<float>(sightings), done = static_cast<float>(looked);
-  const float all = std::max(done, std::ceil(references / batch));
-  const float rate = (seen + (all - done) * seen / (done + 1)) / all;
-  return std::ceil(references / kRound) * (1 - std::pow(1 - rate, kRound / batch));
 }
 
 /// Keeps the best `count` by score and as many more by surface; ranked.
@@ -108,8 +97,9 @@ std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& referen
     ++looked;
     if (ends_search(candidates)) break;
     const double now = watch.total(), batch_seconds = now - std::exchange(last, now);
+    const double used = result.times.sampling + now;
     // What follows the search, one pose refined with all points, takes about as long as a batch.
-    if (options_.max_seconds > 0 && now + 2 * batch_seconds > options_.max_seconds && looked < batches) {
+    if (options_.max_seconds > 0 && used + 2 * batch_seconds > options_.max_seconds && looked < batches) {
       result.cut_short = true;
       break;
     }
@@ -133,11 +123,8 @@ bool CandidateSearch::ends_search(const std::vector<Candidate>& ranked) const {
 
 void CandidateSearch::count_rounds(std::vector<Candidate>& candidates, size_t looked,
                                    size_t references) const {
-  const float batch = static_cast<float>(options_.search.batch),
-              all = std::max(static_cast<float>(references), kFewest);
   for (Candidate& c : candidates) {
-    const float expected = expected_rounds(c.sightings, looked, batch, all);
-    c.sightings = std::max(1, static_cast<int>(std::lround(expected)));
+    c.sightings = expected_rounds(c.sightings, looked, options_.search.batch, references);
     c.confidence = acceptance_score(c.evidence, settings(c.pose).full, c.sightings);
   }
 }
@@ -229,15 +216,19 @@ VerificationSettings CandidateSearch::settings_for(float noise, const std::array
 }
 
 void CandidateSearch::merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch) const {
+  std::vector<bool> seen(found.size(), false);  // by this batch, which is one sighting, however often
   for (const Candidate& c : batch) {
     const auto like = std::find_if(found.begin(), found.end(), [&](const Candidate& f) {
       return comparison_.alike(f.pose, c.pose, kLikeDistance, kLikeAngle);
     });
     if (like == found.end()) {
       found.push_back(c);
+      seen.push_back(true);
       continue;
     }
-    const int sightings = like->sightings + 1;
+    const auto at = static_cast<size_t>(like - found.begin());
+    const int sightings = like->sightings + (seen[at] ? 0 : 1);
+    seen[at] = true;
     if (c.score > like->score) *like = c;
     like->sightings = sightings;
     like->confidence = acceptance_score(like->evidence, settings(like->pose).full, sightings);

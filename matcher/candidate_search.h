@@ -37,7 +37,8 @@ class CandidateSearch {
   CandidateSearch(const Scene::Data& scene, const Model& model, const std::vector<OrientedPoint>& points,
                   const MatchOptions& options);
 
-  /// Looks for all `references` (indices into points), or until a candidate is beyond doubt.
+  /// Looks for all `references` (indices into points), or until a candidate is beyond doubt or settled, or
+  /// the time (MatchOptions::max_seconds, sampling included) is up.
   std::vector<Candidate> run(const std::vector<uint32_t>& references, MatchResult& result) const;
 
   /// Refines one pose coarsely and finely, and looks at it in full.

@@ -73,6 +73,7 @@ EDGEPOSE_WIDE_SIMD void place_points(PixelRow& row, const RowView& view) {
           *noise_bin = row.noise_bin.data();
   uint64_t* key = row.key.data();
   const size_t count = row.key.size();
+  constexpr float kFar = 1e9f;  // cells: what is farther is left out below, but must become a number first
   const float ray_y = view.ray_y, fx = view.fx, side_pixels = view.side, inverse_cell = view.inverse_cell;
   EDGEPOSE_NO_OVERLAP
   for (size_t k = 0; k < count; ++k) {
@@ -82,9 +83,9 @@ EDGEPOSE_WIDE_SIMD void place_points(PixelRow& row, const RowView& view) {
     const float side = z[k] / fx * side_pixels;
     area[k] = side * side / std::max(0.1f, cosine);
     x[k] = px, y[k] = py;
-    cell_x[k] = static_cast<int32_t>(std::floor(px * inverse_cell));
-    cell_y[k] = static_cast<int32_t>(std::floor(py * inverse_cell));
-    cell_z[k] = static_cast<int32_t>(std::floor(z[k] * inverse_cell));
+    cell_x[k] = static_cast<int32_t>(std::floor(std::clamp(px * inverse_cell, -kFar, kFar)));
+    cell_y[k] = static_cast<int32_t>(std::floor(std::clamp(py * inverse_cell, -kFar, kFar)));
+    cell_z[k] = static_cast<int32_t>(std::floor(std::clamp(z[k] * inverse_cell, -kFar, kFar)));
     noise_bin[k] = NoiseCurve::bin(z[k]);
   }
   const float max_pixel_size = view.max_pixel_size;

@@ -149,9 +149,8 @@ FreeSpaceEvidence examine_pose(const Scene::Data& scene, const Model::View& mode
   for (size_t i = 0; i < surface.count(); ++i)
     examine_point(scene, model, camera_T_model, surface, i, options, evidence);
   if (!options.outline) return evidence;
-  const auto contour = model.contour_from(view);
-  for (size_t i = 0; i < contour.size(); i += static_cast<size_t>(options.outline_stride))
-    examine_outline_point(scene, projection, camera_T_model, contour[i], options, evidence);
+  for (const ContourPoint& c : model.contour_from(view))
+    examine_outline_point(scene, projection, camera_T_model, c, options, evidence);
   return evidence;
 }
 

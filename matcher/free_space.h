@@ -33,7 +33,6 @@ struct FreeSpaceOptions {
   float min_normal_cosine = 0.6f;
   size_t max_points = 1000;  ///< dense points looked at; time is proportional
   bool outline = true;
-  int outline_stride = 1;  ///< from one point of the outline that is looked at to the next
 };
 
 /// Projects the model's visible points and outline into the image (default verification; docs/matcher.md).
@@ -54,7 +53,8 @@ float rank_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& opti
 float surface_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options);
 
 /// [0, 1] the probability that the best candidate is right, by logistic regression. `sightings`: how many
-/// batches of references have led to it, each by itself; what is not there is seldom found twice.
+/// rounds of 75 references (sightings.h) have led to it, each by itself; what is not there is seldom found
+/// twice.
 float acceptance_score(const FreeSpaceEvidence& evidence, const FreeSpaceOptions& options, int sightings);
 
 }  // namespace edgepose

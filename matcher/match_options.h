@@ -29,7 +29,7 @@ struct SamplingOptions {
 /// Which scene points vote, and what of it becomes a candidate (paper Sec. 3.2).
 struct VotingOptions {
   float reference_share = 0.2f;  ///< share of the scene points used as reference points (paper: 1/5)
-  int min_references = 288;  ///< but at least so many, as far as there are points (twice as many where more
+  int min_references = 256;  ///< but at least so many, as far as there are points (twice as many where more
                              ///< than one instance is looked for) ...
   int max_references = 900;  ///< ... and at most so many: large ones need fewer; time grows with it
   int peaks_per_reference = 4;  ///< best entries of each accumulator that become pose hypotheses
@@ -55,8 +55,9 @@ struct SearchOptions {
   float sure_once = 0.95f;    ///< [0, 1] a candidate surer than this ends the search; above 1: never
   float sure_twice = 0.85f;   ///< the same for one that two batches led to, each by itself
   float sure_thrice = 0.75f;  ///< the same for three and more
-  float settled = 8;  ///< the search also ends when two batches and more led to the best candidate and their
-                      ///< number times its lead over every other pose is more than this; large: never
+  float settled = 6;  ///< the search also ends when two batches and more led to the best candidate and their
+                      ///< number times its lead over every other pose is more than this, or there is no
+                      ///< other; as the sure_*, only where one instance is looked for
 
   std::string check() const;
 };

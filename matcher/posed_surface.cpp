@@ -53,8 +53,8 @@ EDGEPOSE_WIDE_SIMD void place_points(Placement at, PointColumns in, size_t count
 }  // namespace
 
 void PosedSurface::take(const Model::View& model, size_t view, size_t limit) {
-  if (view == view_ && limit == limit_) return;
-  view_ = view, limit_ = limit;
+  if (model.dense_points.data() == points_ && view == view_ && limit == limit_) return;
+  points_ = model.dense_points.data(), view_ = view, limit_ = limit;
   indices.clear();
   for_visible_points(model, view, limit, [&](size_t i) { indices.push_back(static_cast<uint32_t>(i)); });
   const size_t room = whole_lanes(indices.size());

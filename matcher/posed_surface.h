@@ -24,6 +24,7 @@ class PosedSurface {
   std::vector<int32_t> pixel;              ///< index of the pixel, -1 outside of the image
 
  private:
+  const OrientedPoint* points_ = nullptr;  // of the model that was taken
   size_t view_ = ~size_t{0}, limit_ = 0;
   std::vector<float> model_x_, model_y_, model_z_, model_nx_, model_ny_, model_nz_;  // model frame
 };

@@ -156,6 +156,7 @@ std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedP
   std::atomic<size_t> next{
       0};  // whoever is free takes the next reference: what it gives does not depend on that
   parallel_for(workers, threads, [&](size_t) {
+    if (next >= references.size()) return;  // a late thread would only clear an accumulator
     Accumulator accumulator(model);
     for (size_t i = next++; i < references.size(); i = next++) {
       accumulator.vote_for(partners, points[references[i]], options.border);

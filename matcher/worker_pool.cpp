@@ -1,6 +1,6 @@
 #include "matcher/worker_pool.h"
 
-#include <system_error>
+#include <exception>
 #include <thread>
 
 namespace edgepose {
@@ -45,7 +45,7 @@ void WorkerPool::run(size_t helpers, void (*job)(void*), void* context) {
 void WorkerPool::add_workers(size_t wanted) {
   try {
     for (; workers_ < wanted; ++workers_) std::thread([this] { work(); }).detach();
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {
     // The system has no more threads: those that there are do the work.
   }
 }
