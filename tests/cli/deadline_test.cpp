@@ -11,8 +11,9 @@ namespace {
 
 using nlohmann::json;
 
-/// No candidate is ever sure enough, so only the deadline can end the search early.
-constexpr const char* kNeverSure = "[match.search]\nsure_once = 1.1\nsure_twice = 1.1\nsure_thrice = 1.1\n";
+/// No candidate is ever sure or settled enough, so only the deadline can end the search early.
+constexpr const char* kNeverSure =
+    "[match.search]\nsure_once = 1.1\nsure_twice = 1.1\nsure_thrice = 1.1\nsettled = 100000\n";
 
 std::vector<std::string> with_sample(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"match",        phantom_model(),
