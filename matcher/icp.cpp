@@ -27,9 +27,9 @@ class PixelLine {
   /// [m] what the scene has so many pixels outwards.
   float depth(int outwards) const {
     const float along = static_cast<float>(outwards);
-    const int u = static_cast<int>(middle_.x() + along * step_.x() + 0.5f),
-              v = static_cast<int>(middle_.y() + along * step_.y() + 0.5f);
-    return scene_.depth[static_cast<size_t>(v) * static_cast<size_t>(scene_.width) + static_cast<size_t>(u)];
+    const float x = middle_.x() + along * step_.x() + 0.5f, y = middle_.y() + along * step_.y() + 0.5f;
+    const auto u = static_cast<size_t>(x), v = static_cast<size_t>(y);
+    return scene_.depth[v * static_cast<size_t>(scene_.width) + u];
   }
 
  private:
