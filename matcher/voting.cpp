@@ -37,23 +37,23 @@ struct Hit {
 /// step instead of pair by pair, so that the table's cache lines are on their way before they are needed.
 class Accumulator {
  public:
-  explicit Accumulator(const Model& model)
+  /// `border` [bins]: how far votes spread.
+  Accumulator(const Model& model, float border)
       : view_(model.view()), votes_(view_.points.size() * kAlphaBins), flags_(view_.offsets.size() - 1) {
     const ModelHeader& h = *view_.header;
     quantiser_ = {static_cast<float>(1 / h.distance_step),
                   static_cast<float>(h.angle_bins) / std::numbers::pi_v<float>, h.distance_bins,
                   h.angle_bins};
+    rule_ = {static_cast<float>(h.diameter), border, h.normal_bin_first, h.normal_bin_last};
   }
 
-  void vote_for(const PartnerSearch& partners, const OrientedPoint& reference, float border) {
+  void vote_for(const PartnerSearch& partners, const OrientedPoint& reference) {
     std::fill(votes_.begin(), votes_.end(), uint16_t{0});
     const ReferenceFrame frame(reference);
-    const ModelHeader& h = *view_.header;
-    const VisitRule rule = {static_cast<float>(h.diameter), border, h.normal_bin_first, h.normal_bin_last};
     partners.runs_near(reference.position, runs_);
     for (const PartnerSearch::Run& run : runs_) {
       batch_.compute(reference, frame, partners.points(), run, quantiser_);
-      visits_.list(batch_, run.second - run.first, quantiser_, rule);
+      visits_.list(batch_, run.second - run.first, quantiser_, rule_);
       list_hits();
       vote();
     }
@@ -136,6 +136,7 @@ class Accumulator {
 
   const Model::View& view_;
   FeatureQuantiser quantiser_{};
+  VisitRule rule_{};
   std::vector<uint16_t> votes_;
   std::vector<uint32_t> flags_, flagged_;  // flagged: the buckets with flags, flagged_count_ of them
   size_t flagged_count_ = 0;
@@ -153,13 +154,13 @@ std::vector<PoseHypothesis> vote(const Model& model, const std::vector<OrientedP
   const size_t peaks = static_cast<size_t>(options.peaks_per_reference);
   std::vector<PoseHypothesis> hypotheses(references.size() * peaks);
   const size_t workers = std::min<size_t>(references.size(), static_cast<size_t>(thread_count(threads)));
-  std::atomic<size_t> next{
-      0};  // whoever is free takes the next reference: what it gives does not depend on that
+  // Whoever is free takes the next reference: what it gives does not depend on that.
+  std::atomic<size_t> next{0};
   parallel_for(workers, threads, [&](size_t) {
     if (next >= references.size()) return;  // a late thread would only clear an accumulator
-    Accumulator accumulator(model);
+    Accumulator accumulator(model, options.border);
     for (size_t i = next++; i < references.size(); i = next++) {
-      accumulator.vote_for(partners, points[references[i]], options.border);
+      accumulator.vote_for(partners, points[references[i]]);
       accumulator.peaks(points[references[i]], std::span(hypotheses).subspan(i * peaks, peaks));
     }
   });
