@@ -1,6 +1,7 @@
 #include "matcher/finest_level.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -12,6 +13,25 @@ namespace edgepose {
 namespace {
 
 constexpr size_t kStrips = 8;  // fixed, so that the result does not depend on the threads
+
+/// Cells in groups that threads can merge at the same time.
+constexpr size_t kCellGroups = 8;
+size_t cell_group(uint64_t key) {
+  return key * 0x9e3779b97f4a7c15ull >> 24 & (kCellGroups - 1);  // bits that choose no slot of a hash table
+}
+
+/// A point of one strip, and its cell.
+struct StripPoint {
+  uint64_t key;
+  uint32_t number;  // in its strip
+  WeightedPoint mean;
+};
+
+/// The points of one strip of the image.
+struct Strip {
+  std::array<std::vector<StripPoint>, kCellGroups> groups;  // each by rising number
+  uint32_t count = 0;                                       // points in all of them
+};
 
 /// For the size of the hash table: enough for nearly all images, but small enough to stay in the cache.
 size_t expected_clusters(size_t pixels) { return std::min<size_t>(pixels / 4, 8192); }
@@ -115,7 +135,7 @@ void read_pixels(PixelRow& row, const float* depth, const EdgeKind* edges, const
   }
 }
 
-/// One strip of the finest level in the making.
+/// One strip in the making.
 class StripSampler {
  public:
   StripSampler(const Scene::Data& scene, const Finest& how, int rows)
@@ -143,13 +163,12 @@ class StripSampler {
     grid_.add(row_.points());
   }
 
-  FineStrip take() const {
-    FineStrip strip;
+  Strip take() const {
+    Strip strip;
     for (auto& group : strip.groups) group.reserve(grid_.size() / kCellGroups * 5 / 4);
-    const float inverse_next = 1 / how_.next_cell;
     for (size_t i = 0; i < grid_.size(); ++i) {
       const WeightedPoint mean = grid_[i].mean();
-      const uint64_t key = cell_key(mean.point.surface.position, inverse_next);
+      const uint64_t key = cell_key(mean.point.surface.position, grid_.inverse_cell());
       strip.groups[cell_group(key)].push_back({key, strip.count++, mean});
     }
     return strip;
@@ -183,15 +202,13 @@ class StripSampler {
   uint32_t usable_ = 0;  // bins of the noise curve
 };
 
-}  // namespace
-
-std::vector<FineStrip> finest_level(const Scene::Data& scene, const Finest& how, int threads) {
+std::vector<Strip> sample_strips(const Scene::Data& scene, const Finest& how, int threads) {
   const int stride = how.stride;
   const int rows = (scene.height - stride / 2 + stride - 1) / stride;
   const auto row = [&](size_t strip) {
     return stride / 2 + stride * static_cast<int>(static_cast<size_t>(rows) * strip / kStrips);
   };
-  std::vector<FineStrip> strips(kStrips);
+  std::vector<Strip> strips(kStrips);
   parallel_for(kStrips, threads, [&](size_t s) {
     const int first = row(s), last = std::min(row(s + 1), scene.height);
     StripSampler sampler(scene, how, (last - first + stride - 1) / stride);
@@ -199,6 +216,40 @@ std::vector<FineStrip> finest_level(const Scene::Data& scene, const Finest& how,
     strips[s] = sampler.take();
   });
   return strips;
+}
+
+/// Merges what strips have in common. Threads share the cells; the points are in the order in which one
+/// thread would begin them.
+std::vector<WeightedPoint> merge_strips(const std::vector<Strip>& strips, const Finest& how, int threads) {
+  uint32_t count = 0;
+  for (const Strip& strip : strips) count += strip.count;
+  std::array<std::vector<WeightedPoint>, kCellGroups> groups;
+  std::vector<const WeightedPoint*> begun(count, nullptr);  // by the number of the point that began it
+  parallel_for(kCellGroups, threads, [&](size_t g) {
+    NormalClusterGrid grid(how.cell, how.theta_deg, count / kCellGroups);
+    uint32_t before = 0;
+    for (const Strip& strip : strips) {
+      for (const StripPoint& p : strip.groups[g])
+        grid.add(grid.cell_of(p.key), before + p.number, p.mean.point, p.mean.weight);
+      before += strip.count;
+    }
+    groups[g].resize(grid.size());
+    for (size_t i = 0; i < grid.size(); ++i) {
+      groups[g][i] = grid[i].mean();
+      begun[grid[i].first] = &groups[g][i];
+    }
+  });
+  std::vector<WeightedPoint> points;
+  points.reserve(count);
+  for (const WeightedPoint* point : begun)
+    if (point) points.push_back(*point);
+  return points;
+}
+
+}  // namespace
+
+std::vector<WeightedPoint> finest_level(const Scene::Data& scene, const Finest& how, int threads) {
+  return merge_strips(sample_strips(scene, how, threads), how, threads);
 }
 
 }  // namespace edgepose

@@ -14,16 +14,17 @@ enum class Verification {
 };
 
 /// The multi-resolution, normal-clustered, edge-preserving down-sampling of the paper's Fig. 4. The grid is
-/// as fine as the model's sampling.
+/// about as fine as the model's sampling.
 struct SamplingOptions {
   bool keep_edges = true;        ///< keep edge and high-curvature points; false = plain normal clusters
-  float fine_theta_deg = 40;     ///< [degrees] normals closer than this merge in the finest grid ...
-  float theta_factor = 0.6f;     ///< ... and the threshold shrinks by this factor from level to level
+  float fine_theta_deg = 30;     ///< [degrees] normals closer than this merge in the fine grid ...
+  float theta_factor = 0.45f;    ///< ... and the threshold is smaller by this factor in the coarse one
   int enough_points = 3000;      ///< a scene with no more points than this is not thinned further
   float max_pixel_size = 0.03f;  ///< [d] what is so far away that a pixel spans more is left out at first
   float max_noise = 0.012f;      ///< [d] what is measured worse than this is left out at first
 
   std::string check() const;
+  bool operator==(const SamplingOptions&) const = default;
 };
 
 /// Which scene points vote, and what of it becomes a candidate (paper Sec. 3.2).

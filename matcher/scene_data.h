@@ -9,6 +9,7 @@
 
 #include "matcher/oriented_point.h"
 #include "matcher/scene.h"
+#include "matcher/scene_samples.h"
 
 namespace edgepose {
 
@@ -40,8 +41,9 @@ struct Scene::Data {
   std::vector<float> smooth_depth;       ///< [m] of the fitted plane; 0 where there is no normal
   std::vector<Eigen::Vector3f> normals;  ///< unit, towards the camera; zero where too few neighbours agree
   std::vector<EdgeKind> edges;
-  NoiseCurve noise;    ///< sensor noise and quantisation, read off the plane fits
-  double seconds = 0;  ///< wall time of the preprocessing
+  NoiseCurve noise;             ///< sensor noise and quantisation, read off the plane fits
+  double seconds = 0;           ///< wall time of the preprocessing
+  mutable SampleCache samples;  ///< made for the models that are asked for
 
   size_t index(int u, int v) const { return static_cast<size_t>(v) * width + u; }
   bool inside(int u, int v) const { return u >= 0 && v >= 0 && u < width && v < height; }

@@ -1,10 +1,11 @@
 #include "matcher/scene_sampling.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "matcher/finest_level.h"
 #include "matcher/normal_clusters.h"
-#include "matcher/parallel.h"
+#include "matcher/scene_samples.h"
 
 namespace edgepose {
 namespace {
@@ -20,60 +21,48 @@ int pixel_stride(const Scene::Data& scene, float step) {
   return std::clamp(static_cast<int>(step / 4 / scene.pixel_size(*quarter)), 1, 8);
 }
 
-/// The next level: what the strips have in common merges. Threads share the cells; the points are in the
-/// order in which one thread would begin them.
-std::vector<WeightedPoint> middle_level(const std::vector<FineStrip>& strips, float cell, float theta_deg,
-                                        int threads) {
-  uint32_t count = 0;
-  for (const FineStrip& strip : strips) count += strip.count;
-  std::array<std::vector<WeightedPoint>, kCellGroups> groups;
-  std::vector<const WeightedPoint*> begun(count, nullptr);  // by the number of the fine point that began it
-  parallel_for(kCellGroups, threads, [&](size_t g) {
-    NormalClusterGrid grid(cell, theta_deg, count / kCellGroups / 2);
-    uint32_t before = 0;
-    for (const FineStrip& strip : strips) {
-      for (const FinePoint& p : strip.groups[g])
-        grid.add(grid.cell_of(p.next_key), before + p.number, p.mean.point, p.mean.weight);
-      before += strip.count;
-    }
-    groups[g].resize(grid.size());
-    for (size_t i = 0; i < grid.size(); ++i) {
-      groups[g][i] = grid[i].mean();
-      begun[grid[i].first] = &groups[g][i];
-    }
-  });
-  std::vector<WeightedPoint> points;
-  points.reserve(count / 2);
-  for (const WeightedPoint* point : begun)
-    if (point) points.push_back(*point);
-  return points;
+SceneSamples sample_for(const Scene::Data& scene, const SampleScale& scale, int threads) {
+  const SamplingOptions& options = scale.options;
+  const float step = scale.step_size(), diameter = scale.most_diameter();
+  const Finest finest = {pixel_stride(scene, step), step, options.fine_theta_deg,
+                         options.max_pixel_size * diameter, options.max_noise * diameter};
+  const auto points = finest_level(scene, finest, threads);
+
+  SceneSamples samples;
+  samples.fine.reserve(points.size());
+  for (const auto& [point, weight] : points) samples.fine.push_back(point);
+  if (!options.keep_edges || points.size() <= static_cast<size_t>(options.enough_points)) return samples;
+  samples.thinned.reserve(points.size() / 2);
+  NormalClusterGrid coarse(2 * step, options.fine_theta_deg * options.theta_factor, points.size() / 2);
+  for (const auto& [point, weight] : points) {
+    if (point.edge)
+      samples.thinned.push_back(point);
+    else
+      coarse.add(point, weight);
+  }
+  for (size_t i = 0; i < coarse.size(); ++i) samples.thinned.push_back(coarse[i].mean().point);
+  return samples;
 }
 
 }  // namespace
 
 std::vector<SampledPoint> sample_scene(const Scene::Data& scene, float step, float diameter,
                                        const SamplingOptions& options, int threads) {
-  const Finest finest = {
-      pixel_stride(scene, step),   step / 2, step, options.fine_theta_deg, options.max_pixel_size * diameter,
-      options.max_noise * diameter};
-  const float middle_theta = options.fine_theta_deg * options.theta_factor;
-  const float coarse_theta = middle_theta * options.theta_factor;
-  const auto middle = middle_level(finest_level(scene, finest, threads), step, middle_theta, threads);
+  const SampleScale scale(step, diameter, options);
+  const SceneSamples& samples = scene.samples.get(scale, [&] { return sample_for(scene, scale, threads); });
 
+  const auto usable = [&](const SampledPoint& p) {
+    const float z = p.surface.position.z();
+    return scene.pixel_size(z) <= options.max_pixel_size * diameter &&
+           scene.noise.at(z) <= options.max_noise * diameter;
+  };
+  const auto& fine = samples.fine;
+  const auto count = static_cast<size_t>(std::count_if(fine.begin(), fine.end(), usable));
+  const bool thin = options.keep_edges && count > static_cast<size_t>(options.enough_points);
   std::vector<SampledPoint> points;
-  points.reserve(middle.size());
-  if (!options.keep_edges || middle.size() <= static_cast<size_t>(options.enough_points)) {
-    for (const auto& [point, weight] : middle) points.push_back(point);
-    return points;
-  }
-  NormalClusterGrid coarse(2 * step, coarse_theta, middle.size() / 2);
-  for (const auto& [point, weight] : middle) {
-    if (point.edge)
-      points.push_back(point);
-    else
-      coarse.add(point, weight);
-  }
-  for (size_t i = 0; i < coarse.size(); ++i) points.push_back(coarse[i].mean().point);
+  points.reserve(thin ? samples.thinned.size() : count);
+  std::copy_if(thin ? samples.thinned.begin() : fine.begin(), thin ? samples.thinned.end() : fine.end(),
+               std::back_inserter(points), usable);
   return points;
 }
 
