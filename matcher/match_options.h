@@ -30,7 +30,7 @@ struct SamplingOptions {
 /// Which scene points vote, and what of it becomes a candidate (paper Sec. 3.2).
 struct VotingOptions {
   float reference_share = 0.2f;  ///< share of the scene points used as reference points (paper: 1/5)
-  int min_references = 256;  ///< but at least so many, as far as there are points (twice as many where more
+  int min_references = 224;  ///< but at least so many, as far as there are points (twice as many where more
                              ///< than one instance is looked for) ...
   int max_references = 900;  ///< ... and at most so many: large ones need fewer; time grows with it
   int peaks_per_reference = 4;  ///< best entries of each accumulator that become pose hypotheses
@@ -59,6 +59,8 @@ struct SearchOptions {
   float settled = 6;  ///< the search also ends when two batches and more led to the best candidate and their
                       ///< number times its lead over every other pose is more than this, or there is no
                       ///< other; as the sure_*, only where one instance is looked for
+  float hopeless = 0.005f;  ///< [0, 1] ... and when, after four batches, the best candidate is less sure than
+                            ///< this and one batch alone led to it: the object is hardly there. 0 = never
 
   std::string check() const;
 };
