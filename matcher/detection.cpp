@@ -34,6 +34,14 @@ Eigen::Matrix<double, 6, 6> covariance(const IcpResult& icp, double diameter) {
   return information.inverse();
 }
 
+double edge_score_of(const Scene::Data& scene, const Model& model, const PoseF& pose,
+                     const PaperOptions& options) {
+  const float d = static_cast<float>(model.diameter());
+  const auto near_model = model.view().near_model->get(model.view(), options.edge_distance * d);
+  const SceneEdges edges(scene, 0.01f * d, d / 32, region_of_interest(model.view(), pose, options.roi_scale));
+  return edge_score(edges, model.view(), *near_model, pose, options);
+}
+
 /// The best score among the candidates that differ clearly from all that is reported; 0 if there is none.
 float best_rival(const std::vector<Candidate>& candidates, const std::vector<PoseF>& reported,
                  const PoseComparison& comparison) {
@@ -94,9 +102,7 @@ float overlap(const std::vector<uint32_t>& cells, const std::vector<uint32_t>& o
 Report report_detections(const Scene::Data& scene, const Model& model, const std::vector<Candidate>& ranked,
                          const CandidateSearch& search, const MatchOptions& options) {
   const Model::View& view = model.view();
-  const float d = static_cast<float>(model.diameter());
   const PoseComparison comparison(model);
-  const auto near_model = view.near_model->get(view, options.paper.edge_distance * d);
   Report report;
   std::vector<Detection>& detections = report.detections;
   std::vector<PoseF> reported;
@@ -117,9 +123,8 @@ Report report_detections(const Scene::Data& scene, const Model& model, const std
     detection.camera_T_model = to_rigid(c.pose);
     detection.score = c.confidence;
     detection.accepted = accepted;
-    const SceneEdges edges(scene, 0.01f * d, d / 32,
-                           region_of_interest(view, c.pose, options.paper.roi_scale));
-    detection.edge_score = edge_score(edges, view, *near_model, c.pose, options.paper);
+    if (options.edge_score || options.verification == Verification::kPaper)
+      detection.edge_score = edge_score_of(scene, model, c.pose, options.paper);
     detection.coverage = c.evidence.coverage();
     detection.violations = c.evidence.violation_share();
     detection.votes = c.votes;

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct Detection {
   RigidTransform camera_T_model = RigidTransform::Identity();
   double score = 0;  ///< [0, 1] how sure; accepted if >= MatchOptions::accept_score
   bool accepted = false;
-  double edge_score = 0;  ///< S of the paper's Eq. 2
+  /// [0, 1] S of the paper's Eq. 2; in paper mode, and where MatchOptions::edge_score asks for it.
+  std::optional<double> edge_score;
   double coverage = 0;    ///< [0, 1] share of the surface expected from this view that the scene shows
   double violations = 0;  ///< [0, 1] share of the expected surface that the scene sees through
   double margin = 0;  ///< score minus the best score of a clearly different pose that is not reported itself;

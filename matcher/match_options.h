@@ -112,6 +112,8 @@ struct MatchOptions {
   PaperOptions paper;
   int max_instances = 1;       ///< how many instances of the model to look for
   float accept_score = 0.66f;  ///< [0, 1] detections with a lower score are reported as not accepted
+  bool edge_score = false;     ///< also work out the paper's S of what is reported: about as much time as
+                               ///< following a pose takes without it
   uint64_t seed = 1;           ///< of the choice of references
   int threads = 0;             ///< 0 = all cores; the result does not depend on it
   double max_seconds = 0;      ///< [s] after which the search ends with what it has; the result then depends

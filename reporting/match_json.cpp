@@ -36,7 +36,7 @@ json to_json(const Detection& detection, const std::string& frame) {
           {"translation_m", to_array(Eigen::Vector3d(detection.camera_T_model.translation()))},
           {"score", detection.score},
           {"accepted", detection.accepted},
-          {"edge_score", detection.edge_score},
+          {"edge_score", detection.edge_score ? json(*detection.edge_score) : json()},
           {"coverage", detection.coverage},
           {"violations", detection.violations},
           {"margin", detection.margin},

@@ -34,7 +34,7 @@ edgepose_lcm::detection_t detection_message(const Detection& detection) {
   m.accepted = detection.accepted;
   m.coverage = detection.coverage;
   m.violations = detection.violations;
-  m.edge_score = detection.edge_score;
+  m.edge_score = detection.edge_score.value_or(-1);
   m.margin = detection.margin;
   for (const RigidTransform& pose : detection.equivalent) m.camera_T_equivalent.push_back(to_message(pose));
   m.equivalents = static_cast<int32_t>(m.camera_T_equivalent.size());

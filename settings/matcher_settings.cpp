@@ -27,6 +27,7 @@ std::vector<SettingKey> setting_keys(Settings& settings) {
       {"match.verification", &match.verification},
       {"match.max_instances", &match.max_instances},
       {"match.accept_score", &match.accept_score},
+      {"match.edge_score", &match.edge_score},
       {"match.seed", &match.seed},
       {"match.threads", &match.threads},
       {"match.max_seconds", &match.max_seconds},

@@ -60,6 +60,7 @@ Settings MatchCommand::settings() const {
   Settings settings = config.empty() ? Settings{} : read_settings(config);
   if (paper_mode) settings.match.verification = Verification::kPaper;
   if (max_instances) settings.match.max_instances = *max_instances;
+  settings.match.edge_score = true;  // one image, and somebody who reads the figures
   if (accept_score) settings.match.accept_score = static_cast<float>(*accept_score);
   if (threads) settings.train.threads = settings.scene.threads = settings.match.threads = *threads;
   return settings;

@@ -19,11 +19,11 @@ void print_detection(std::ostream& out, const std::string& name, const Detection
   const Eigen::Vector3d t = (1e3 * detection.camera_T_model.translation()).unaryExpr(shown);
   const Eigen::AngleAxisd turn(detection.camera_T_model.linear());
   const Eigen::Vector3d r = (kDegrees * turn.angle() * turn.axis()).unaryExpr(shown);
-  out << formatted(
-      "%-16.16s %-5s %8.2f %8.2f %8.2f  %7.2f %7.2f %7.2f  %5.2f %5.2f %5.2f %5.2f %6.2f  %7.1f\n",
-      name.c_str(), detection.accepted ? "yes" : "no", t.x(), t.y(), t.z(), r.x(), r.y(), r.z(),
-      detection.score, detection.coverage, detection.violations, detection.edge_score,
-      shown(detection.margin), 1e3 * seconds);
+  const std::string edge_score = detection.edge_score ? formatted("%.2f", *detection.edge_score) : "-";
+  out << formatted("%-16.16s %-5s %8.2f %8.2f %8.2f  %7.2f %7.2f %7.2f  %5.2f %5.2f %5.2f %5s %6.2f  %7.1f\n",
+                   name.c_str(), detection.accepted ? "yes" : "no", t.x(), t.y(), t.z(), r.x(), r.y(), r.z(),
+                   detection.score, detection.coverage, detection.violations, edge_score.c_str(),
+                   shown(detection.margin), 1e3 * seconds);
 }
 
 void print_certainty(std::ostream& out, const Detection& detection) {

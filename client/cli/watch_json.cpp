@@ -27,7 +27,7 @@ json detection_json(const detection_t& detection) {
           {"accepted", detection.accepted},
           {"coverage", detection.coverage},
           {"violations", detection.violations},
-          {"edge_score", detection.edge_score},
+          {"edge_score", detection.edge_score >= 0 ? json(detection.edge_score) : json()},
           {"margin", detection.margin},
           {"equivalent", equivalent}};
 }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "matcher/match.h"
 #include "matcher/model_block.h"
 #include "tests/matcher/fixtures.h"
@@ -84,6 +86,19 @@ TEST_P(OnTheTable, IsFoundAndAnyThreadCountSaysTheSame) {
   expect_same_bits(one, match_with(image, 3));
 }
 
+TEST_P(OnTheTable, TheEdgeScoreIsWorkedOutOnRequestAndChangesNothingElse) {
+  MatchOptions options;
+  options.edge_score = true;
+  MatchResult plain = match_with(image, 2), with = match_with(image, 2, options);
+  ASSERT_FALSE(plain.detections.empty());
+  for (Detection& d : plain.detections) EXPECT_FALSE(d.edge_score);
+  for (Detection& d : with.detections) {
+    ASSERT_TRUE(d.edge_score);
+    EXPECT_GT(std::exchange(d.edge_score, std::nullopt), 0.1);
+  }
+  expect_same_bits(plain, with);
+}
+
 TEST_P(OnTheTable, PaperModeGivesADetection) {
   MatchOptions options;
   options.verification = Verification::kPaper;
@@ -92,8 +107,9 @@ TEST_P(OnTheTable, PaperModeGivesADetection) {
   const Detection& best = one.detections[0];
   EXPECT_TRUE(best.camera_T_model.matrix().allFinite());
   EXPECT_NEAR(best.camera_T_model.linear().determinant(), 1, 1e-4);
-  EXPECT_GE(best.edge_score, 0);
-  EXPECT_LE(best.edge_score, 1);
+  ASSERT_TRUE(best.edge_score);
+  EXPECT_GE(*best.edge_score, 0);
+  EXPECT_LE(*best.edge_score, 1);
   expect_same_bits(one, match_with(image, 3, options));
 }
 
