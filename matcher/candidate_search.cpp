@@ -109,7 +109,7 @@ std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& referen
       break;
     }
   }
-  count_rounds(candidates, looked, references.size());
+  count_rounds(candidates, looked);
   return candidates;
 }
 
@@ -126,8 +126,9 @@ bool CandidateSearch::ends_search(const std::vector<Candidate>& ranked, size_t l
   });
 }
 
-void CandidateSearch::count_rounds(std::vector<Candidate>& candidates, size_t looked,
-                                   size_t references) const {
+void CandidateSearch::count_rounds(std::vector<Candidate>& candidates, size_t looked) const {
+  const auto references =
+      static_cast<size_t>(options_.voting.reference_share * static_cast<float>(points_.size()));
   for (Candidate& c : candidates) {
     c.sightings = expected_rounds(c.sightings, looked, options_.search.batch, references);
     c.confidence = acceptance_score(c.evidence, settings(c.pose).full, c.sightings);

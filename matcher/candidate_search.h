@@ -56,7 +56,7 @@ class CandidateSearch {
   /// others after several sightings.
   bool ends_search(const std::vector<Candidate>& ranked, size_t looked) const;
   /// Turns sightings in batches into the rounds of references that acceptance_score() knows.
-  void count_rounds(std::vector<Candidate>& candidates, size_t looked, size_t references) const;
+  void count_rounds(std::vector<Candidate>& candidates, size_t looked) const;
   /// Adds what a batch found to what the batches before it did.
   void merge_batch(std::vector<Candidate>& found, const std::vector<Candidate>& batch) const;
   VerificationSettings settings_for(float noise, const std::array<float, 3>& typical) const;

@@ -32,7 +32,7 @@ struct VotingOptions {
   float reference_share = 0.2f;  ///< share of the scene points used as reference points (paper: 1/5)
   int min_references = 224;  ///< but at least so many, as far as there are points (twice as many where more
                              ///< than one instance is looked for) ...
-  int max_references = 900;  ///< ... and at most so many: large ones need fewer; time grows with it
+  int max_references = 600;  ///< ... and at most so many: large ones need fewer; time grows with it
   int peaks_per_reference = 4;  ///< best entries of each accumulator that become pose hypotheses
   float border = 0.2f;  ///< [bins] features this close to a bucket's border also vote in the next one; time
                         ///< grows with its 4th power
