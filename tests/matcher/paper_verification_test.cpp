@@ -35,6 +35,24 @@ TEST_P(PaperVerification, TheTruePoseHasTheHigherScore) {
   for (int i = 0; i < 5; ++i) EXPECT_GT(truth, score(seen.perturbed(random, 0.6, 0.15 * d)));
 }
 
+TEST_P(PaperVerification, EdgesInABoxAreThoseOfTheWholeImage) {
+  const float cell = 0.01f * d, border = 2 * cell;  // a cell that the box cuts may have another first point
+  const Eigen::AlignedBox3f box = region_of_interest(bracket_model().view(), seen.truth(), 0.8f);
+  const SceneEdges boxed(seen.scene->data(), cell, d / 32, box);
+  const Eigen::AlignedBox3f inner(box.min().array() + border, box.max().array() - border);
+  const auto within = [&](const SceneEdges& of) {
+    std::vector<std::array<float, 3>> points;
+    for (const Eigen::Vector3f& p : of.points())
+      if (inner.contains(p)) points.push_back({p.x(), p.y(), p.z()});
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  EXPECT_GT(within(edges).size(), 50u);
+  EXPECT_EQ(within(boxed), within(edges));
+  EXPECT_LT(boxed.points().size(), edges.points().size());
+  for (const Eigen::Vector3f& p : boxed.points()) EXPECT_TRUE(box.contains(p));
+}
+
 TEST_P(PaperVerification, ChoosesTheTruePoseAmongOthersInAnyClass) {
   fixtures::Random random(GetParam() + 30);
   for (const size_t place : {0u, 3u, 7u}) {
