@@ -42,12 +42,6 @@ bool beyond_doubt(const Candidate& best, const SearchOptions& options) {
   return best.confidence > sure;
 }
 
-/// Several batches have found nothing that could be the object, let alone twice.
-bool beyond_hope(const Candidate& best, size_t looked, const SearchOptions& options) {
-  constexpr size_t kFewest = 4;  // batches: of objects hard to see, not each finds the pose
-  return looked >= kFewest && best.sightings == 1 && best.confidence < options.hopeless;
-}
-
 /// Keeps the best `count` by score and as many more by surface; ranked.
 void keep_promising(std::vector<Candidate>& candidates, size_t count) {
   if (candidates.size() <= 2 * count) return rank(candidates);
@@ -100,7 +94,7 @@ std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& referen
     add_batch({references.begin() + static_cast<long>(begin), references.begin() + static_cast<long>(end)},
               candidates, result);
     ++looked;
-    if (ends_search(candidates, looked)) break;
+    if (ends_search(candidates)) break;
     const double now = watch.total(), batch_seconds = now - std::exchange(last, now);
     const double used = result.times.sampling + now;
     // What follows the search, one pose refined with all points, takes about as long as a batch.
@@ -113,11 +107,11 @@ std::vector<Candidate> CandidateSearch::run(const std::vector<uint32_t>& referen
   return candidates;
 }
 
-bool CandidateSearch::ends_search(const std::vector<Candidate>& ranked, size_t looked) const {
+bool CandidateSearch::ends_search(const std::vector<Candidate>& ranked) const {
   // More instances may come with more references.
   if (options_.max_instances != 1 || ranked.empty()) return false;
   const Candidate& best = ranked.front();
-  if (beyond_doubt(best, options_.search) || beyond_hope(best, looked, options_.search)) return true;
+  if (beyond_doubt(best, options_.search)) return true;
   const auto sightings = static_cast<float>(best.sightings);
   if (best.sightings < 2) return false;
   return std::none_of(ranked.begin() + 1, ranked.end(), [&](const Candidate& c) {

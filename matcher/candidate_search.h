@@ -38,7 +38,7 @@ class CandidateSearch {
                   const MatchOptions& options);
 
   /// Looks for all `references` (indices into points), or until a candidate is beyond doubt or settled, or
-  /// there is no hope of one, or the time (MatchOptions::max_seconds, sampling included) is up.
+  /// the time (MatchOptions::max_seconds, sampling included) is up.
   std::vector<Candidate> run(const std::vector<uint32_t>& references, MatchResult& result) const;
 
   /// Refines one pose coarsely and finely, and looks at it in full.
@@ -52,9 +52,8 @@ class CandidateSearch {
  private:
   void add_batch(const std::vector<uint32_t>& references, std::vector<Candidate>& found,
                  MatchResult& result) const;
-  /// After `looked` batches: whether the best candidate is beyond doubt or hope, or clearly ahead of all
-  /// others after several sightings.
-  bool ends_search(const std::vector<Candidate>& ranked, size_t looked) const;
+  /// Whether the best candidate is beyond doubt, or clearly ahead of all others after several sightings.
+  bool ends_search(const std::vector<Candidate>& ranked) const;
   /// Turns sightings in batches into the rounds of references that acceptance_score() knows.
   void count_rounds(std::vector<Candidate>& candidates, size_t looked) const;
   /// Adds what a batch found to what the batches before it did.

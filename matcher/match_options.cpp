@@ -41,8 +41,7 @@ std::string SearchOptions::check() const {
        {"sure_once", sure_once, 0, 2},
        {"sure_twice", sure_twice, 0, 2},
        {"sure_thrice", sure_thrice, 0, 2},
-       {"settled", settled, 0, 1e5},
-       {"hopeless", hopeless, 0, 1}});
+       {"settled", settled, 0, 1e5}});
 }
 
 std::string ToleranceOptions::check() const {

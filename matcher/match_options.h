@@ -59,8 +59,6 @@ struct SearchOptions {
   float settled = 6;  ///< the search also ends when two batches and more led to the best candidate and their
                       ///< number times its lead over every other pose is more than this, or there is no
                       ///< other; as the sure_*, only where one instance is looked for
-  float hopeless = 0.005f;  ///< [0, 1] ... and when, after four batches, the best candidate is less sure than
-                            ///< this and one batch alone led to it: the object is hardly there. 0 = never
 
   std::string check() const;
 };

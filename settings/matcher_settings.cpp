@@ -51,7 +51,6 @@ std::vector<SettingKey> setting_keys(Settings& settings) {
       {"match.search.sure_twice", &match.search.sure_twice},
       {"match.search.sure_thrice", &match.search.sure_thrice},
       {"match.search.settled", &match.search.settled},
-      {"match.search.hopeless", &match.search.hopeless},
       {"match.tolerance.surface", &match.tolerance.surface},
       {"match.tolerance.noise_factor", &match.tolerance.noise_factor},
       {"match.tolerance.max_surface", &match.tolerance.max_surface},

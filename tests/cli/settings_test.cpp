@@ -95,7 +95,7 @@ TEST(Settings, EveryOptionOfTheMatcherHasAKey) {
     const size_t begin = text.find("struct " + name + " {");
     ASSERT_NE(begin, std::string::npos) << name;
     const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
-    const std::regex field("\n  [A-Za-z_0-9:]+ ([a-z_0-9]+) *= *[^;]+;");
+    const std::regex field("\n  [A-Za-z_0-9:]+ ([a-z_0-9]+) *= *[^=;][^;]*;");
     size_t fields = 0;
     for (auto it = std::sregex_iterator(body.begin(), body.end(), field); it != std::sregex_iterator();
          ++it) {

@@ -5,7 +5,6 @@
 #include "matcher/match.h"
 #include "matcher/model_block.h"
 #include "tests/matcher/fixtures.h"
-#include "tests/matcher/solids.h"
 
 namespace edgepose {
 namespace {
@@ -114,22 +113,6 @@ TEST_P(OnTheTable, PaperModeGivesADetection) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, OnTheTable, testing::Values(1, 2, 3));
-
-TEST(AnotherObject, AHopelessSearchEndsEarlyWithTheSameVerdict) {
-  fixtures::Random random(4);
-  const Mesh prism = fixtures::prism(6, 0.03, 0.05);
-  const DepthImage image =
-      fixtures::render(fixtures::table(), prism, fixtures::pose_on_table(prism, fixtures::table(), random));
-  MatchOptions never, soon;
-  never.search.hopeless = 0;
-  soon.search.hopeless = 0.5f;
-  const MatchResult early = match_with(image, 2, soon), late = match_with(image, 2, never);
-  EXPECT_LT(early.candidates, late.candidates * 3 / 4);
-  for (const MatchResult& result : {early, late}) {
-    EXPECT_FALSE(result.reason.empty());
-    for (const Detection& d : result.detections) EXPECT_FALSE(d.accepted);
-  }
-}
 
 TEST(OnlyTheTable, NothingIsAcceptedAndTheReasonIsGiven) {
   const MatchResult result = match_with(fixtures::render(fixtures::table()), 0);
