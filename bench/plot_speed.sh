@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws the curves that edgepose_speed --csv wrote, of one test set or of several: time over scene points, model points,
-# models and threads, and recall over the deadline. What the files do not hold is not drawn.
+# models and threads, and recall over the deadline. What the files do not hold is not drawn; if that is all, exit code 2.
 # Usage: bench/plot_speed.sh FOLDER CSV...        the pictures are FOLDER/speed_*.png and FOLDER/recall_over_deadline.png
 # Example: bench/plot_speed.sh docs/images range.csv spine.csv
 set -euo pipefail
@@ -17,6 +17,11 @@ for csv in "$@"; do
 done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+
+curves=$(tail -q -n +2 "$@" | cut -d, -f1 | sort -u)
+grep -qxE 'scene_points|model_points|models|threads|deadline' <<<"$curves" ||
+  fail "$*: expected curves, found ${curves:-no line below the columns}; of the parts of edgepose_speed, points, models," \
+    "threads and deadline have some"
 
 # lines CURVE COLUMN: the curve's lines as gnuplot data blocks and a plot command. A colour a set; its second variant is
 # dashed. What stands at x = none is no point but a level, drawn dotted.

@@ -1,7 +1,6 @@
 #include "common/nearest_word.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace edgepose {
@@ -24,9 +23,9 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known, size_t most) {
   std::string best;
-  size_t fewest = std::numeric_limits<size_t>::max();
+  size_t fewest = most + 1;
   for (const std::string& candidate : known) {
     const size_t distance = edit_distance(word, candidate);
     if (distance < fewest) {

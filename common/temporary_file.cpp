@@ -60,7 +60,7 @@ TemporaryFile::TemporaryFile(std::filesystem::path target) : target_(std::move(t
   const int cause = errno;
   if (slot_ >= 0) unfinished[static_cast<size_t>(slot_)] = nullptr;
   errno = cause;
-  fail("cannot create a file beside it");
+  fail("made, first under a name beside it");
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
@@ -79,22 +79,29 @@ void TemporaryFile::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("cannot write");
+    if (written < 0) fail("written");
     bytes = bytes.subspan(static_cast<size_t>(written));
   }
-  if (fchmod(descriptor_, mode_for(target_)) != 0 || fsync(descriptor_) != 0) fail("cannot flush to disk");
-  if (close(std::exchange(descriptor_, -1)) != 0) fail("cannot write");
+  if (fchmod(descriptor_, mode_for(target_)) != 0 || fsync(descriptor_) != 0) fail("written to disk");
+  if (close(std::exchange(descriptor_, -1)) != 0) fail("written");
 }
 
 void TemporaryFile::rename_to_target() {
-  if (rename(name_.get(), target_.c_str()) != 0) fail("cannot rename into place");
+  if (rename(name_.get(), target_.c_str()) != 0) fail("renamed into place");
   // Another file may take the old name at once: neither the handler nor the destructor may remove that.
   if (slot_ >= 0) unfinished[static_cast<size_t>(std::exchange(slot_, -1))] = nullptr;
   name_.reset();
 }
 
 void TemporaryFile::fail(const char* doing) const {
-  throw InputError(target_.string() + ": " + doing + ": " + std::strerror(errno));
+  const int cause = errno;
+  const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+  std::error_code ignored;
+  if (cause == ENOENT && !std::filesystem::exists(folder, ignored))
+    throw InputError::at(target_.string(), "the folder " + folder.string(), "none", "make it first");
+  const bool full = cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
+  throw InputError::at(target_.string(), std::string("a file that can be ") + doing, std::strerror(cause),
+                       full ? "make room, or name another place" : "name another place");
 }
 
 void remove_temporary_files_on_signals() {

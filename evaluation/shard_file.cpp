@@ -1,3 +1,7 @@
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "evaluation/shard.h"
@@ -11,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kKind = "edgepose-shard";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr size_t kMaxBytes = size_t{1} << 30;
 constexpr size_t kMaxText = 1u << 16;
 
@@ -29,6 +33,7 @@ json heading(const ShardRun& run) {
           {"shard", run.shard.index},
           {"of", run.shard.count},
           {"made_with", run.made_with},
+          {"set_checksum", run.set_checksum},
           {"folder", run.folder},
           {"objects", run.objects},
           {"images", run.images},
@@ -122,11 +127,12 @@ ShardRun heading_from(const JsonNode& node, size_t& rows) {
   if (const JsonNode kind = node.at("kind"); kind.text() != kKind)
     kind.fail(std::string("\"") + kKind + "\"", "edgepose eval --shard writes such files");
   if (const JsonNode version = node.at("version"); version.integer() != kVersion)
-    version.fail("version 1", "evaluate again with this program");
+    version.fail("version " + std::to_string(kVersion), "evaluate again with this program");
   ShardRun run;
   run.shard = {node.at("shard").integer(), node.at("of").integer()};
   parse_shard(std::to_string(run.shard.index) + "/" + std::to_string(run.shard.count));
   run.made_with = short_text(node.at("made_with"));
+  run.set_checksum = short_text(node.at("set_checksum"));
   run.folder = short_text(node.at("folder"));
   for (const JsonNode& object : node.at("objects").items()) run.objects.push_back(short_text(object));
   run.images = short_text(node.at("images"));
@@ -139,7 +145,37 @@ ShardRun heading_from(const JsonNode& node, size_t& rows) {
   return run;
 }
 
+/// Changes of a disk, a network or a hand; nobody is kept from forging.
+std::string crc_text(std::string_view text) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%08lx",
+                crc32_z(0, reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+  return digits;
+}
+
+std::string crc_line(const std::string& sum) { return "{\"crc32\":\"" + sum + "\"}\n"; }
+
+/// `text` without the last line, which must hold the checksum of the others.
+std::string_view checked(std::string_view text, const std::string& name) {
+  constexpr const char* kAgain = "evaluate this part again";
+  const size_t lines = static_cast<size_t>(std::count(text.begin(), text.end(), '\n'));
+  if (!text.ends_with('\n'))
+    throw InputError::at(name + ", line " + std::to_string(lines + 1), "a whole line",
+                         "a file that ends within it", kAgain);
+  const std::string_view before = text.substr(0, text.rfind('\n', text.size() - 2) + 1);
+  const std::string sum = crc_text(before), line = crc_line(sum);
+  const std::string_view last = text.substr(before.size());
+  if (last == line) return before;
+  if (last.size() == line.size() && last.starts_with("{\"crc32\":\""))
+    throw InputError::at(name, "the checksum " + std::string(last.substr(10, 8)) + ", as its last line says",
+                         sum + ": it was changed since it was written", kAgain);
+  throw InputError::at(name + ", line " + std::to_string(lines), "the checksum that ends a shard",
+                       "another line: the end is missing", kAgain);
+}
+
 }  // namespace
+
+std::string with_checksum(const std::string& text) { return text + crc_line(crc_text(text)); }
 
 std::string format_shard(const ShardRun& run) {
   const auto plain = [](const json& value) {
@@ -147,26 +183,29 @@ std::string format_shard(const ShardRun& run) {
   };
   std::string text = plain(heading(run));
   for (const EvalRow& row : run.evaluation.rows) text += plain(row_json(row));
-  return text;
+  return with_checksum(text);
 }
 
 ShardRun parse_shard_file(std::string_view text, const std::string& name) {
+  if (!text.starts_with('{'))
+    throw InputError::at(name, "a shard of edgepose eval --shard",
+                         text.empty() ? "an empty file" : "another file",
+                         "what eval writes without --shard is whole already");
   std::optional<ShardRun> run;
   size_t rows = 0, number = 0;
   while (!text.empty()) {
-    const size_t end = text.find('\n');
+    const size_t end = std::min(text.find('\n'), text.size());
     const std::string where = name + ", line " + std::to_string(++number);
-    if (end == std::string_view::npos)
-      throw InputError::at(where, "a whole line", "a file that ends within it", "evaluate this part again");
     const json value = parse_json(text.substr(0, end), where);
     const JsonNode node(value, where);
-    if (run)
+    if (run) {
       run->evaluation.rows.push_back(row_from(node));
-    else
-      run = heading_from(node, rows);
+    } else {
+      run = heading_from(node, rows);  // before the checksum: other versions have none
+      text = checked(text, name);
+    }
     text.remove_prefix(end + 1);
   }
-  if (!run) throw InputError::at(name, "a shard of edgepose eval --shard", "an empty file");
   if (run->evaluation.rows.size() != rows)
     throw InputError::at(name, std::to_string(rows) + " answers, as its first line says",
                          std::to_string(run->evaluation.rows.size()), "evaluate this part again");

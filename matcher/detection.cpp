@@ -57,10 +57,15 @@ float best_rival(const std::vector<Candidate>& candidates, const std::vector<Pos
 /// Why the best guess is not accepted, in words.
 std::string rejection_reason(const Candidate& best, const MatchOptions& options) {
   const auto percent = [](float share) { return std::to_string(std::lround(100 * share)) + " %"; };
+  const auto two_digits = [](double score) {  // rounded, as tables are
+    const long hundredths = std::lround(100 * score);
+    return std::to_string(hundredths / 100) + (hundredths % 100 < 10 ? ".0" : ".") +
+           std::to_string(hundredths % 100);
+  };
   const FreeSpaceEvidence& e = best.evidence;
-  std::string reason = "the best candidate has score " + std::to_string(best.confidence).substr(0, 4) +
-                       " of the " + std::to_string(options.accept_score).substr(0, 4) +
-                       " wanted: " + percent(e.coverage()) + " of the expected surface is there";
+  std::string reason = "the best candidate has score " + two_digits(best.confidence) + " of the " +
+                       two_digits(options.accept_score) + " wanted: " + percent(e.coverage()) +
+                       " of the expected surface is there";
   if (e.violation_share() > 0.03f) reason += ", the scene sees through " + percent(e.violation_share());
   if (e.expected > 0 && e.occluded / e.expected > 0.3f)
     reason += ", " + percent(e.occluded / e.expected) + " would be hidden";

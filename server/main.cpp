@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/keep_memory.h"
 #include "server/service.h"
@@ -51,11 +52,13 @@ int run(int argc, char** argv) {
   app.add_option("--state", arguments.state, "Instead of service.state_folder");
   app.add_option("--socket", arguments.socket, "Instead of service.control_socket");
   app.footer(kExamples);
+  app.name("edgeposed");
+  check_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    throw InputError(std::string(error.what()) + " (edgeposed --help shows the options)");
+    throw InputError(command_line_fault(app, error));
   }
   // Once: a daemon outlives the folder that it was started in.
   for (std::string* path : {&arguments.state, &arguments.socket})

@@ -1,10 +1,10 @@
 #include "servo/demo_command.h"
 
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "client/service/stop_signals.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "demo/demo.h"
 #include "demo/demo_processes.h"
@@ -60,13 +60,14 @@ void add_demo_command(CLI::App& app) {
   demo->add_option("--target", o.cell.target, "Hole of the plan (default: its first)");
   demo->add_option("-o,--output", o.output, "Folder for the report")->capture_default_str();
   demo->add_option("--seed", o.seed, "Of start, what is told, and the camera's noise")->capture_default_str();
-  demo->add_option("--noise", o.noise, "How wrong the controller is told to be: paper (default) or none")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"paper", true}, {"none", false}}));
-  demo->add_option("--goal", o.goal, "taught (default), calibrations or exact (docs/servoing.md)")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, DemoGoal>{{"taught", DemoGoal::kTaught},
-                                                                  {"calibrations", DemoGoal::kCalibrations},
-                                                                  {"exact", DemoGoal::kExact}}));
+  choose<bool>(
+      demo->add_option("--noise", o.noise, "How wrong the controller is told to be: paper (default) or none"),
+      {{"paper", true}, {"none", false}});
+  choose<DemoGoal>(
+      demo->add_option("--goal", o.goal, "taught (default), calibrations or exact (docs/servoing.md)"),
+      {{"taught", DemoGoal::kTaught},
+       {"calibrations", DemoGoal::kCalibrations},
+       {"exact", DemoGoal::kExact}});
   demo->add_option("--taught-poses", o.taught_poses, "Poses at each of the five places")
       ->capture_default_str();
   demo->add_option("--seconds", o.seconds, "[s] that the arm has")->capture_default_str();

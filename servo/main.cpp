@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "controller/controller.h"
 #include "servo/arm_commands.h"
@@ -94,13 +95,15 @@ int run(int argc, char** argv) {
   add_client_commands(app);
   add_experiment_command(app);
   add_demo_command(app);
+  app.name("edgepose-servo");
+  check_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    throw InputError(std::string(error.what()) + " (edgepose-servo --help shows the options)");
+    throw InputError(command_line_fault(app, error));
   }
   return 0;
 }

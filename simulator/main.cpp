@@ -2,9 +2,9 @@
 /// simulator/simulation.
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <map>
 #include <new>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "simulator/simulation.h"
 
@@ -27,17 +27,17 @@ void add_cell_options(CLI::App& app, SimulationOptions& options) {
   app.add_option("--plan", options.cell.plan, "Drill plan for it")->required();
   app.add_option("--target", options.cell.target, "Hole of the plan (default: its first)");
   app.add_option("--seed", options.seed, "Of start, told and sensor noise")->capture_default_str();
-  app.add_option("--start-at", options.start,
-                 "random: within 100 mm and 20 degrees of the standoff; or standoff")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, SimStart>{{"random", SimStart::kRandom}, {"standoff", SimStart::kStandoff}}));
+  choose<SimStart>(app.add_option("--start-at", options.start,
+                                  "random: within 100 mm and 20 degrees of the standoff; or standoff"),
+                   {{"random", SimStart::kRandom}, {"standoff", SimStart::kStandoff}});
 }
 
 void add_saying_options(CLI::App& app, SimulationOptions& options) {
   app.add_option("--lcm-url", options.lcm_url, "Where messages go (udpm://...)");
-  app.add_option("--publish", options.publish, "depth: frames; poses: what a pose service would say; or none")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, SimPublish>{
-          {"depth", SimPublish::kDepth}, {"poses", SimPublish::kPoses}, {"none", SimPublish::kNothing}}));
+  choose<SimPublish>(
+      app.add_option("--publish", options.publish,
+                     "depth: frames; poses: what a pose service would say; or none"),
+      {{"depth", SimPublish::kDepth}, {"poses", SimPublish::kPoses}, {"none", SimPublish::kNothing}});
   app.add_option("--rate", options.rate, "Frames or poses a second (default: 10 or 30)");
   app.add_option("--camera-name", options.camera, "Name of the camera")->capture_default_str();
   app.add_option("--sensor", options.sensor,
@@ -54,8 +54,9 @@ int run(int argc, char** argv) {
   app.add_option("--bus", options.bus, "unix:/path, which is made, or a CAN interface")
       ->capture_default_str();
   add_saying_options(app, options);
-  app.add_option("--noise", options.noise, "How wrong the controller is told to be: paper or none")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"paper", true}, {"none", false}}));
+  choose<bool>(
+      app.add_option("--noise", options.noise, "How wrong the controller is told to be: paper or none"),
+      {{"paper", true}, {"none", false}});
   app.add_option("--told", options.told, "Folder for hand-eye.json, tool.json and camera.json, as told");
   app.add_option("--truth", options.truth, "CSV file for the truth, one line a millisecond");
   app.add_option("--control", options.control, "Unix socket for commands (docs/simulator.md)");
@@ -67,11 +68,13 @@ int run(int argc, char** argv) {
       "The processors never sleep: time is kept on a virtual machine too, at the power of one that works");
   app.add_flag("--ready", options.ready, "Print READY ... on stdout when everything listens");
   app.footer(kExamples);
+  app.name("edgepose-sim");
+  check_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    throw InputError(std::string(error.what()) + " (edgepose-sim --help shows the options)");
+    throw InputError(command_line_fault(app, error));
   }
   run_simulation(options);
   return 0;

@@ -6,6 +6,7 @@
 
 #include "bench/accuracy/floor_file.h"
 #include "common/atomic_file.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/output_target.h"
 #include "evaluation/score.h"
@@ -132,7 +133,9 @@ int refuse_accuracy(const std::string& message) {
 int main(int argc, char** argv) {
   edgepose::bench::AccuracyCommand command;
   CLI::App app{"Checks that the matcher still finds what it found, over every test set of a folder."};
+  app.name("edgepose_accuracy");
   command.add_options(app);
+  edgepose::check_values(app);
   try {
     app.parse(argc, argv);
     const bool passed = command.run();
@@ -140,7 +143,7 @@ int main(int argc, char** argv) {
     return passed ? 0 : 1;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    return edgepose::bench::refuse_accuracy(error.what());
+    return edgepose::bench::refuse_accuracy(edgepose::command_line_fault(app, error));
   } catch (const std::exception& error) {
     return edgepose::bench::refuse_accuracy(error.what());
   }

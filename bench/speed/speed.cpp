@@ -2,13 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <numbers>
 
 #include "bench/speed/parts.h"
 #include "common/atomic_file.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/output_target.h"
 #include "evaluation/selection.h"
@@ -93,8 +93,6 @@ TestSet SpeedCommand::read() const {
 }
 
 void SpeedCommand::run() const {
-  if (!std::isfinite(shift_mm) || !std::isfinite(turn_deg))
-    throw InputError("--shift-mm, --turn-deg: expected finite numbers, found NaN");
   TestSet read_set = read();
   if (!csv.empty()) check_output(csv, read_set.descriptions);
   SpeedRun run = prepare_run(std::move(read_set), threads);
@@ -123,14 +121,16 @@ int refuse(const std::string& message) {
 int main(int argc, char** argv) {
   edgepose::bench::SpeedCommand command;
   CLI::App app{"Times the stages of detection and tracking over a test set, and what they depend on."};
+  app.name("edgepose_speed");
   command.add_options(app);
+  edgepose::check_values(app);
   try {
     app.parse(argc, argv);
     command.run();
     return std::cout.flush() ? 0 : edgepose::bench::refuse("standard output: cannot write");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    return edgepose::bench::refuse(error.what());
+    return edgepose::bench::refuse(edgepose::command_line_fault(app, error));
   } catch (const std::exception& error) {
     return edgepose::bench::refuse(error.what());
   }

@@ -37,6 +37,9 @@ void print_table(std::ostream& out, const Comparison& comparison) {
                      kDegrees * largest(m.rotation));
   out << "answers: " << comparison.answers << " in both, " << comparison.only_a << " only in A, "
       << comparison.only_b << " only in B\n";
+  if (comparison.cut_short_a + comparison.cut_short_b > 0)
+    out << "cut short by the daemon's deadline: " << comparison.cut_short_a << " in A, "
+        << comparison.cut_short_b << " in B; such answers depend on how fast it was\n";
 }
 
 void print_table(std::ostream& out, const TruthComparison& comparison) {
@@ -66,6 +69,8 @@ json to_json(const Comparison& comparison) {
   return {{"answers", comparison.answers},
           {"only_a", comparison.only_a},
           {"only_b", comparison.only_b},
+          {"cut_short_a", comparison.cut_short_a},
+          {"cut_short_b", comparison.cut_short_b},
           {"bit_equal", comparison.is_bit_equal()},
           {"models", models}};
 }

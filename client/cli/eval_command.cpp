@@ -66,6 +66,7 @@ void EvalCommand::run_shard(const TestSet& whole, const EvalOptions& options) co
   const TestSet set = take_shard(whole, run.shard);
   const auto models = train_models(set, options, progress_bar("training"));
   run.made_with = made_with(whole, options);
+  run.set_checksum = checksum_of(whole);
   run.folder = input.folder.string();
   run.objects = input.objects;
   run.images = input.images;

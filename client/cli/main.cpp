@@ -29,6 +29,7 @@
 #include "client/cli/study_command.h"
 #include "client/cli/train_command.h"
 #include "client/cli/watch_command.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/keep_memory.h"
 #include "common/nearest_word.h"
@@ -88,6 +89,7 @@ void add_commands(CLI::App& app) {
   add_compare_command(app);
   add_calibrate_command(app);
   add_teach_command(app);
+  check_values(app);
 }
 
 int parse_and_run(CLI::App& app, int argc, char** argv) {
@@ -99,7 +101,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
     return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return report_bad_input(std::string(error.what()) + " (edgepose --help shows the options)");
+    return report_bad_input(command_line_fault(app, error));
   }
 }
 

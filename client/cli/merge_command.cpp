@@ -14,8 +14,9 @@ constexpr const char* kMergeExamples = R"(Examples:
   edgepose merge part_*.shard --set /mnt/data/spine    # where the test set is here
 
 The parts are what edgepose eval --shard I/N wrote, all N of them. Results, tables and report are those of the whole
-evaluation in one run, the same bits; only times are those of the machines. deploy/cluster has a Slurm array and a
-Kubernetes job.)";
+evaluation in one run, the same bits; only times are those of the machines. Refused are parts that were changed since
+they were written, and parts of another set: other meshes, truth or sizes of images. deploy/cluster has a Slurm array and
+a Kubernetes job.)";
 
 struct MergeCommand {
   std::vector<std::filesystem::path> shards;

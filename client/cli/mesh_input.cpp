@@ -1,4 +1,5 @@
 #include "client/cli/mesh_input.h"
+#include "common/command_line.h"
 
 #include <algorithm>
 #include <array>
@@ -36,9 +37,7 @@ void add_unit_option(CLI::App& command, const std::string& option, LengthUnit& u
                      const std::string& of_what) {
   static const std::map<std::string, LengthUnit> kUnits = {{"mm", LengthUnit::kMillimetre},
                                                            {"m", LengthUnit::kMetre}};
-  command.add_option(option, unit, "Unit of " + of_what + ": mm (default) or m")
-      ->transform(CLI::CheckedTransformer(kUnits, CLI::ignore_case))
-      ->type_name("mm|m");
+  choose(command.add_option(option, unit, "Unit of " + of_what + ": mm (default) or m"), kUnits);
 }
 
 }  // namespace edgepose

@@ -15,6 +15,7 @@
 #include "client/service/depth_files.h"
 #include "client/service/latency_figures.h"
 #include "client/service/stop_signals.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "files/depth_file.h"
 #include "messaging/channels.h"
@@ -163,11 +164,9 @@ void add_send_command(CLI::App& app) {
   send->add_option("--repeat", command->repeat, "How many times (default 1); 0 = for ever");
   send->add_option("--camera", command->camera, "The camera's name (default camera)")
       ->check(check_camera_name, "");
-  send->add_option("--encoding", command->encoding, "rvl (lossless compression, the default) or raw")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, DepthEncoding>{
-                                              {"rvl", DepthEncoding::kRvl}, {"raw", DepthEncoding::kRaw16}})
-                      .description(""))
-      ->type_name("rvl|raw");
+  choose<DepthEncoding>(
+      send->add_option("--encoding", command->encoding, "rvl (lossless compression, the default) or raw"),
+      {{"rvl", DepthEncoding::kRvl}, {"raw", DepthEncoding::kRaw16}});
   add_url_option(*send, command->url);
   send->add_flag("--wait", command->wait, "Send the next when the answer has come, so that none is dropped");
   send->add_option("--timeout", command->timeout, "[s] With --wait: how long for each answer (default 5)")

@@ -26,7 +26,7 @@ std::optional<LoggedPose> read_pose(const detection_t& detection) {
 }
 
 std::optional<LoggedAnswer> read_answer(const pose_estimates_t& message) {
-  LoggedAnswer answer{message.sequence, {}};
+  LoggedAnswer answer{message.sequence, {}, message.deadline_reached != 0};
   for (const model_answer_t& model : message.answers) {
     std::vector<LoggedPose>& found = answer.models[model.model];
     for (const detection_t& detection : model.detections) {

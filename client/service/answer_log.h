@@ -22,6 +22,7 @@ struct LoggedPose {
 struct LoggedAnswer {
   int64_t sequence = 0;
   std::map<std::string, std::vector<LoggedPose>> models;
+  bool cut_short = false;  ///< by the service's deadline: what is said depends on how fast it was
 };
 
 struct CameraAnswers {

@@ -87,7 +87,11 @@ Comparison compare_logs(const AnswerLog& a, const AnswerLog& b) {
     result.answers += pairs.both.size();
     result.only_a += pairs.only_a;
     result.only_b += pairs.only_b;
-    for (const auto& [first, second] : pairs.both) compare_answer(*first, *second, result.models);
+    for (const auto& [first, second] : pairs.both) {
+      compare_answer(*first, *second, result.models);
+      result.cut_short_a += first->cut_short;
+      result.cut_short_b += second->cut_short;
+    }
   }
   for (const auto& [camera, of_b] : b.cameras)
     if (!a.cameras.contains(camera)) result.only_b += of_b.answers.size();

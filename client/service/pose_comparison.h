@@ -18,8 +18,9 @@ struct ModelComparison {
 
 struct Comparison {
   std::map<std::string, ModelComparison> models;
-  size_t answers = 0;             ///< pairs
-  size_t only_a = 0, only_b = 0;  ///< answers without a partner
+  size_t answers = 0;                       ///< pairs
+  size_t only_a = 0, only_b = 0;            ///< answers without a partner
+  size_t cut_short_a = 0, cut_short_b = 0;  ///< of the pairs: by the service's deadline
 
   bool nothing_missing() const;
   bool is_bit_equal() const;

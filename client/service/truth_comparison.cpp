@@ -20,7 +20,7 @@ const TestObject& object_of(const TestSet& set, const std::string& model) {
   }
   throw InputError::at("model '" + model + "' of the answers",
                        "the name of an object of " + set.name + ": " + known, "another",
-                       "register the models under these names");
+                       "edgepose models add FILE --name NAME gives a model such a name");
 }
 
 /// The objects that were asked for, by the answers' names.

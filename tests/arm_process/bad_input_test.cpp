@@ -57,6 +57,24 @@ struct BadInput : testing::Test {
   }
 };
 
+TEST_F(BadInput, ValuesThatNobodyMeans) {
+  const auto line_of = [&](const std::vector<std::string>& command) {
+    const std::string log = "log" + std::to_string(++runs);
+    EXPECT_EQ(Process(command, folder / log).wait(20), 2);
+    return read_text(folder / log);
+  };
+  EXPECT_THAT(
+      line_of({program("edgepose-servo"), "demo", "-o", folder / "demo", "--seed", "-1"}),
+      HasSubstr("--seed: expected a whole number, not negative, found '-1' (edgepose-servo demo --help"));
+  EXPECT_THAT(line_of({program("edgepose-servo"), "demo", "-o", folder / "demo", "--goal", "hole"}),
+              HasSubstr("--goal: expected calibrations|exact|taught, found 'hole'"));
+  EXPECT_THAT(line_of({program("edgepose-sim"), "--model", "m", "--plan", "p", "--seed", "-1"}),
+              HasSubstr("--seed: expected a whole number"));
+  EXPECT_THAT(line_of({program("edgeposed"), "--state", ""}), HasSubstr("--state: expected a value"));
+  more = {"--key", ""};  // else every message would count
+  EXPECT_THAT(line(), HasSubstr("--key: expected a value"));
+}
+
 TEST_F(BadInput, ABusThatDoesNotExist) {
   EXPECT_THAT(line(), AllOf(HasSubstr("no_bus"), HasSubstr("expected"), HasSubstr("found")));
   bus = "can17";

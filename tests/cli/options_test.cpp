@@ -53,6 +53,27 @@ TEST(CliOptions, WrongUsageIsBadInputAndNamesTheOption) {
   expect_refused(edgepose({"info"}), {"FILE"});
 }
 
+TEST(CliOptions, AnEmptyValueIsNoValue) {
+  expect_refused(edgepose({"eval", "set", "--shard", "", "--results", "r"}),
+                 {"--shard", "empty", "edgepose eval --help"});
+  expect_refused(edgepose({"eval", "set", "--images", ""}), {"--images", "empty"});
+  expect_refused(edgepose({"eval", ""}), {"SET", "empty"});
+  expect_refused(edgepose({"merge", "a.shard", "--set", ""}), {"--set", "empty"});
+  expect_refused(edgepose({"merge", "a.shard", ""}), {"SHARD", "empty"});
+  expect_refused(edgepose({"match", "", "--depth", "d.png"}), {"MODEL", "empty"});
+}
+
+TEST(CliOptions, WhatIsUnknownIsNamedFirstWithItsCommandsHelp) {
+  expect_refused(edgepose({"merge", "a.shard", "--deadline-ms", "0"}),
+                 {"no option is called '--deadline-ms'", "edgepose merge --help"});
+  expect_refused(edgepose({"models", "add", "a.ply", "--nam", "a"}),
+                 {"did you mean --name?", "edgepose models add --help"});
+  expect_refused(edgepose({"train", "a.ply", "-o", "m", "--threads", "abc"}),
+                 {"--threads: expected a whole number", "'abc'"});
+  expect_refused(edgepose({"train", "a.ply", "-o", "m", "--unit", "inch"}),
+                 {"--unit: expected m|mm, found 'inch'"});
+}
+
 TEST(CliOptions, ConfigurationIsReadAndItsFaultsAreNamed) {
   const Folder folder;
   const std::string mesh = folder.write("bracket.ply", bracket_ply(100));

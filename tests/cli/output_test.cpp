@@ -100,7 +100,8 @@ TEST(Output, GoesToWhatALinkLeadsTo) {
 TEST(Output, AFolderThatIsMissingIsNoticedBeforeTheWork) {
   const Folder folder;
   // Inputs that are missing, too: the complaint about the output shows that it comes first.
-  expect_refused(edgepose({"train", folder / "no.ply", "-o", folder / "no_folder/m"}), {"no_folder/m"});
+  expect_refused(edgepose({"train", folder / "no.ply", "-o", folder / "no_folder/m"}),
+                 {"no_folder/m: expected the folder ", "no_folder, found none; make it first"});
   expect_refused(edgepose({"match", folder / "no.model", "--cloud", folder / "no.ply", "--overlay",
                            folder / "no_folder/o.png"}),
                  {"no_folder/o.png"});

@@ -8,6 +8,7 @@
 #include <random>
 #include <sstream>
 
+#include "client/cli/compare_report.h"
 #include "client/cli/match_report.h"
 #include "client/cli/plan_report.h"
 
@@ -119,6 +120,18 @@ TEST(MatchReport, TableTellsTheReason) {
   std::ostringstream out;
   print_table(out, {absent}, "camera", 0.01);
   EXPECT_THAT(out.str(), testing::HasSubstr("thing            not found: nothing scored above 0.5"));
+}
+
+TEST(CompareReport, TellsOfAnswersThatTheDeadlineCutShort) {
+  Comparison comparison;
+  comparison.answers = 5;
+  std::ostringstream whole, cut;
+  print_table(whole, comparison);
+  EXPECT_THAT(whole.str(), testing::Not(testing::HasSubstr("cut short")));
+  comparison.cut_short_b = 2;
+  print_table(cut, comparison);
+  EXPECT_THAT(cut.str(), testing::HasSubstr("cut short by the daemon's deadline: 0 in A, 2 in B"));
+  EXPECT_EQ(to_json(comparison).at("cut_short_b"), 2);
 }
 
 }  // namespace

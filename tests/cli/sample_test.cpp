@@ -181,6 +181,18 @@ TEST(Sample, AnAbsentObjectIsNotFoundAndTheReasonIsGiven) {
   EXPECT_THAT(both.out, testing::HasSubstr("not found"));
 }
 
+TEST(Sample, TheReasonRoundsAsTheTableDoes) {
+  const Finished run =
+      edgepose({"match", phantom_model(), "--depth", phantom_file("scene/depth.png"), "--intrinsics",
+                phantom_file("scene/camera.json"), "--accept", "0.999", "--json"});
+  EXPECT_EQ(run.code, 1) << run.out;
+  const json model = json::parse(run.out).at("models").at(0);
+  char score[8];
+  std::snprintf(score, sizeof score, "%.2f", model.at("detections").at(0).at("score").get<double>());
+  EXPECT_THAT(model.at("reason").get<std::string>(),
+              testing::HasSubstr("has score " + std::string(score) + " of the 1.00 wanted"));
+}
+
 TEST(Sample, InfoDescribesTheModel) {
   const Finished run = edgepose({"info", phantom_model(), "--json"});
   ASSERT_EQ(run.code, 0) << run.err;

@@ -82,6 +82,15 @@ TEST(PoseComparison, EqualLogsAreEqualBitForBit) {
   EXPECT_EQ(result.models.at("part").bit_equal, 5u);
 }
 
+TEST(PoseComparison, AnswersThatTheDeadlineCutShortAreCounted) {
+  auto a = run(100, 5), b = run(200, 5);
+  a[1].cut_short = b[1].cut_short = b[3].cut_short = true;
+  const Comparison result = compare_logs(log(a), log(b));
+  EXPECT_EQ(result.cut_short_a, 1u);
+  EXPECT_EQ(result.cut_short_b, 2u);
+  EXPECT_TRUE(result.is_bit_equal());
+}
+
 TEST(PoseComparison, NothingIsNotEqualToNothing) {
   const auto empty = [] { return log({answer(1, {}), answer(2, {})}); };
   EXPECT_FALSE(compare_logs(empty(), empty()).is_bit_equal());

@@ -44,7 +44,7 @@ TEST(AtomicFile, WritesToWhatALinkLeadsTo) {
 }
 
 TEST(AtomicFile, NamesAFolderThatIsMissing) {
-  expect_input_error([] { write_file_atomically("no_such_folder/a", "x"); }, {"no_such_folder/a", "No such"});
+  expect_input_error([] { write_file_atomically("no_such_folder/a", "x"); }, {"no_such_folder/a", "none"});
 }
 
 TEST(FileGroup, AppearsAsAWholeOrNotAtAll) {

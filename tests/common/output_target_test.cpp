@@ -52,7 +52,7 @@ TEST(CheckOutput, RefusesInputsUnderAnyName) {
 TEST(CheckOutput, RefusesFoldersThatTakeNoFiles) {
   const TemporaryFolder folder;
   folder.write("file", "x");
-  expect_input_error([&] { check_output(folder / "no/file"); }, {"no/file", "No such"});
+  expect_input_error([&] { check_output(folder / "no/file"); }, {"no/file", "none"});
   expect_input_error([&] { check_output("/proc/edgepose"); }, {"/proc/edgepose"});
   expect_input_error([&] { check_output_folder(folder.path() / "file" / "below"); }, {"file", "no folder"});
   expect_input_error([&] { check_output_folder("/proc/report"); }, {"/proc/report"});

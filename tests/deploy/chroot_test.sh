@@ -61,13 +61,16 @@ done
 in_root bash -c 'command -v socat || apt-get -q install -y --no-install-recommends socat' >/dev/null # for the test only
 
 step "what is installed"
-for file in usr/local/bin/edgepose usr/local/bin/edgeposed usr/local/lib/systemd/system/edgeposed.service \
+for file in usr/local/bin/edgepose usr/local/bin/edgeposed usr/local/bin/edgepose-servo usr/local/bin/edgepose-sim \
+  usr/local/lib/systemd/system/edgeposed.service usr/local/lib/systemd/system/edgepose-servo.service \
   usr/local/lib/sysctl.d/60-edgepose.conf usr/local/lib/sysusers.d/edgepose.conf etc/edgepose/edgeposed.toml \
   usr/local/share/doc/edgepose/examples/edgeposed.toml usr/local/share/doc/edgepose/docs/service.md; do
   [ -f "$root/$file" ] || fail "$file is not there"
 done
 in_root edgepose --version
 in_root edgeposed --version
+in_root edgepose-servo --version
+in_root edgepose-sim --help >/dev/null
 in_root edgeposed --config /etc/edgepose/edgeposed.toml --check-config
 
 step "the daemon, confined as in docker/compose.yaml"

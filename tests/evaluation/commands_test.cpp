@@ -80,6 +80,16 @@ TEST_F(Commands, ShardsMergedAreTheWholeRunBitForBit) {
   }
 }
 
+TEST_F(Commands, ShardsOfASetThatWasChangedAreNotMerged) {
+  const std::string part = "'" + (rendered.folder / "part.shard").string() + "'";
+  ASSERT_EQ(run("eval " + set + " --images 1 --shard 1/1 --results " + part).code, 0);
+  ASSERT_EQ(run("merge " + part).code, 0);
+  std::ofstream(rendered.folder / "test" / "000001" / "scene_gt.json", std::ios::app) << "\n";
+  const Outcome changed = run("merge " + part);
+  EXPECT_EQ(changed.code, 2);
+  EXPECT_NE(changed.text.find("with other files"), std::string::npos) << changed.text;
+}
+
 TEST_F(Commands, AWrongShardIsBadInput) {
   for (const std::string wrong :
        {"--shard 3/2 --results x", "--shard 1/2", "--shard 1/2 --results x --report y"}) {

@@ -107,6 +107,15 @@ TEST_F(KeyFile, ComesBackAndOnlyItsOwnerCanReadIt) {
   EXPECT_EQ(SecretKey::read(path_).bytes(), key.bytes());
 }
 
+TEST_F(KeyFile, AMissingFolderIsNamed) {
+  try {
+    SecretKey::random().write(folder_ / "no_folder" / "key");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no_folder, found none; make it first"));
+  }
+}
+
 TEST_F(KeyFile, OthersMayNotReadIt) {
   SecretKey::random().write(path_);
   chmod(path_.c_str(), 0644);
