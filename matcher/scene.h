@@ -16,7 +16,8 @@ struct SceneOptions {
 };
 
 /// A preprocessed depth image: points, normals, edges by kind (paper Fig. 2 f-g). Shared by all models that
-/// are looked for; what depends on a model's size is sampled in match(). Immutable, safe from any thread.
+/// are looked for; what depends on a model's size is sampled in match(), and kept for models of like size as
+/// long as the scene lives. Immutable but for that, safe from any thread.
 class Scene {
  public:
   struct Data;  // matcher/scene_data.h

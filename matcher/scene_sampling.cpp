@@ -41,6 +41,7 @@ SceneSamples sample_for(const Scene::Data& scene, const SampleScale& scale, int 
       coarse.add(point, weight);
   }
   for (size_t i = 0; i < coarse.size(); ++i) samples.thinned.push_back(coarse[i].mean().point);
+  samples.thinned.shrink_to_fit();  // they stay as long as the scene
   return samples;
 }
 

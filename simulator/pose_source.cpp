@@ -116,7 +116,8 @@ PoseSource::Answer PoseSource::answer(const RigidTransform& truth, int64_t captu
         i < 3 ? std::max(kAngleSigma, options_.angle_sigma) : std::max(kLeastSigma, options_.sigma);
     detection.covariance[i][i] = sigma * sigma;
   }
-  detection.score = detection.edge_score = detection.coverage = options_.score;
+  detection.score = detection.coverage = options_.score;
+  detection.edge_score = -1;
   detection.accepted = true;
   detection.margin = 0.5;
   edgepose_lcm::model_answer_t model{};

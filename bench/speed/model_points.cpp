@@ -70,8 +70,9 @@ std::string time_model_points(SpeedRun& run) {
     run.curves.add(point);
   }
   return "## Cost over model points\n\n" + table.markdown() +
-         "\nmatch() without preprocessing; train.sampling_step varies, and the scene is sampled as finely as "
-         "the model. Sizes are medians over the models.\n";
+         "\nmatch() without preprocessing; train.sampling_step varies, and the scene is sampled about as "
+         "finely "
+         "as the model, in steps of a quarter of an octave. Sizes are medians over the models.\n";
 }
 
 }  // namespace edgepose::bench

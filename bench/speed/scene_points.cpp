@@ -19,7 +19,7 @@ std::vector<SceneVariant> scene_variants() {
     variants.push_back({"the image within " + fixed(static_cast<double>(margin), 2) + " d of the object",
                         "cropped", margin});
   variants.push_back({"the whole image", "cropped"});
-  for (const float theta : {90.f, 60.f, 40.f, 25.f, 15.f, 10.f}) {
+  for (const float theta : {90.f, 60.f, 30.f, 20.f, 15.f, 10.f}) {
     SceneVariant variant{"fine_theta_deg = " + fixed(static_cast<double>(theta), 0), "thinned"};
     variant.sampling.fine_theta_deg = theta;
     variant.sampling.enough_points = 1;  // always the coarsest grid, so that only theta makes the difference
@@ -66,7 +66,7 @@ std::string time_scene_points(SpeedRun& run) {
   }
   return "## Cost over scene points\n\n" + table.markdown() +
          "\nmatch() without preprocessing. Cropped: less of the scene around the object. fine_theta_deg: "
-         "the whole image, thinned more or less (match.sampling; 40 degrees is the default).\n";
+         "the whole image, thinned more or less (match.sampling; 30 degrees is the default).\n";
 }
 
 }  // namespace edgepose::bench

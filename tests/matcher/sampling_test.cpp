@@ -45,7 +45,8 @@ TEST(Sampling, ThinsTheEvenSurfaceAndKeepsEdges) {
 TEST(Sampling, PointsLieOnTheSurfaceAndAreTheSameForAnyThreads) {
   const Scene scene = bracket_scene();
   const auto points = sample_scene(scene.data(), kGridStep, kModelDiameter, unthinned(), 1);
-  const auto again = sample_scene(scene.data(), kGridStep, kModelDiameter, unthinned(), 3);
+  // A scene of its own, as a scene keeps its samples.
+  const auto again = sample_scene(bracket_scene().data(), kGridStep, kModelDiameter, unthinned(), 3);
   ASSERT_EQ(points.size(), again.size());
   const Scene::Data& data = scene.data();
   size_t off = 0;
@@ -53,6 +54,8 @@ TEST(Sampling, PointsLieOnTheSurfaceAndAreTheSameForAnyThreads) {
     const Eigen::Vector3f& p = points[i].surface.position;
     ASSERT_EQ(p, again[i].surface.position);
     ASSERT_EQ(points[i].surface.normal, again[i].surface.normal);
+    ASSERT_EQ(points[i].area, again[i].area);
+    ASSERT_EQ(points[i].edge, again[i].edge);
     ASSERT_NEAR(points[i].surface.normal.norm(), 1, 1e-5);
     ASSERT_GT(points[i].area, 0);
     const int u = static_cast<int>(std::lround(p.x() / p.z() * fixtures::kCamera.fx + fixtures::kCamera.cx));

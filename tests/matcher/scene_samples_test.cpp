@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <latch>
+#include <new>
 #include <thread>
 
 #include "matcher/scene_sampling.h"
@@ -35,10 +38,13 @@ TEST(SampleScale, IsSharedByModelsOfLikeSizeAndLikeOptionsOnly) {
 TEST(SampleCache, MakesEachScaleOnceForAllThreads) {
   SampleCache cache;
   std::atomic<int> made = 0;
+  std::latch both(2);
   const auto ask = [&] {
+    both.arrive_and_wait();
     for (const float d : {0.1f, 0.2f, 0.4f}) {
       const SceneSamples& samples = cache.get(SampleScale(d / 20, d, {}), [&] {
         ++made;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // for the other one to come
         return SceneSamples{std::vector<SampledPoint>(static_cast<size_t>(100 * d)), {}};
       });
       EXPECT_EQ(samples.fine.size(), static_cast<size_t>(100 * d));
@@ -49,21 +55,40 @@ TEST(SampleCache, MakesEachScaleOnceForAllThreads) {
   EXPECT_EQ(made, 3);
 }
 
+TEST(SampleCache, WhatCouldNotBeMadeIsMadeWhenItIsAskedForAgain) {
+  SampleCache cache;
+  const SampleScale scale(0.005f, 0.1f, {});
+  EXPECT_THROW(cache.get(scale, []() -> SceneSamples { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_EQ(cache.get(scale, [] { return SceneSamples{std::vector<SampledPoint>(3), {}}; }).fine.size(), 3u);
+}
+
+/// What models of like size asked for before, also with other limits, must change nothing.
 TEST(SampleScene, WhatWasAskedForBeforeChangesNothing) {
   fixtures::Random random(9);
   const RigidTransform pose = fixtures::pose_on_table(fixtures::bracket(), fixtures::table(), random);
   const DepthImage image = fixtures::render(fixtures::table(), fixtures::bracket(), pose);
-  const auto sample = [](const Scene& scene, float d) {
-    return sample_scene(scene.data(), d / 20, d, {}, 2);
+  const auto sample = [](const Scene& scene, float d, float max_pixel_size) {
+    SamplingOptions options;
+    options.max_pixel_size = max_pixel_size;
+    return sample_scene(scene.data(), d / 20, d, options, 2);
   };
-  const Scene used = prepare_scene(image, fixtures::kCamera), fresh = prepare_scene(image, fixtures::kCamera);
-  for (const float d : {0.099f, 0.101f, 0.3f}) sample(used, d);
-  const auto a = sample(used, 0.1f), b = sample(fresh, 0.1f);
-  ASSERT_GT(a.size(), 100u);
-  ASSERT_EQ(a.size(), b.size());
-  for (size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].surface.position, b[i].surface.position);
-    EXPECT_EQ(a[i].surface.normal, b[i].surface.normal);
+  const Scene used = prepare_scene(image, fixtures::kCamera);
+  // The table begins at some 0.25 m, where a pixel spans 1 mm: the tighter limit cuts through it.
+  for (const float limit : {0.03f, 0.012f}) {
+    for (const float d : {0.103f, 0.108f, 0.118f, 0.3f}) sample(used, d, limit);
+    for (const float d : {0.105f, 0.112f}) {
+      const auto a = sample(used, d, limit), b = sample(prepare_scene(image, fixtures::kCamera), d, limit);
+      ASSERT_GT(a.size(), 100u);
+      ASSERT_EQ(a.size(), b.size());
+      for (size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].surface.position, b[i].surface.position);
+        EXPECT_EQ(a[i].surface.normal, b[i].surface.normal);
+        EXPECT_EQ(a[i].area, b[i].area);
+        EXPECT_EQ(a[i].edge, b[i].edge);
+      }
+    }
+    // Models on the same rung have the same samples, but limits of their own.
+    EXPECT_EQ(sample(used, 0.105f, limit).size() < sample(used, 0.112f, limit).size(), limit < 0.02f);
   }
 }
 

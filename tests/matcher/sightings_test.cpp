@@ -8,6 +8,9 @@ namespace {
 TEST(ExpectedRounds, CountsWholeRoundsAsTheyAre) {
   for (int seen = 1; seen <= 8; ++seen) EXPECT_EQ(expected_rounds(seen, 8, 75, 600), seen);
   EXPECT_EQ(expected_rounds(12, 12, 75, 900), 12);
+  EXPECT_EQ(expected_rounds(12, 12, 75, 3000), 12)
+      << "no more than there were in what the scores were fitted to";
+  EXPECT_EQ(expected_rounds(4, 8, 75, 900), 6) << "the last 300 references were not looked at";
 }
 
 TEST(ExpectedRounds, AnEarlyEndCostsAPoseThatEveryBatchSawLittle) {

@@ -3,7 +3,10 @@
 /// build the other tests.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <latch>
+#include <thread>
 
 #include "matcher/match.h"
 #include "tests/matcher/fixtures.h"
@@ -39,6 +42,36 @@ TEST(Threads, FindTheSamePoseInEveryMode) {
     EXPECT_EQ(one.detections[0].camera_T_model.matrix(), four.detections[0].camera_T_model.matrix());
     EXPECT_EQ(one.detections[0].score, four.detections[0].score);
     EXPECT_EQ(one.detections[0].covariance, four.detections[0].covariance);
+  }
+}
+
+/// A scene is safe from any thread, though it keeps the samples that matches make.
+TEST(Threads, AskOneSceneAtTheSameTime) {
+  fixtures::Random random(1);
+  const RigidTransform truth = fixtures::pose_on_table(fixtures::bracket(), fixtures::table(), random);
+  const DepthImage image = fixtures::render(fixtures::table(), fixtures::bracket(), truth);
+  Mesh larger = fixtures::bracket();
+  for (Eigen::Vector3f& vertex : larger.vertices) vertex *= 1.5f;
+  const Model other = train_model(larger, "larger", fixtures::quick_training(2));
+  const std::array<const Model*, 3> asked = {&fixtures::bracket_model(), &other, &fixtures::bracket_model()};
+  const Scene shared = prepare_scene(image, fixtures::kCamera);
+  std::array<MatchResult, asked.size()> together;
+  std::latch all(asked.size());
+  std::vector<std::thread> threads;
+  for (size_t i = 0; i < asked.size(); ++i)
+    threads.emplace_back([&, i] {
+      MatchOptions options;
+      options.threads = 2;
+      all.arrive_and_wait();
+      together[i] = match(shared, *asked[i], options);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (size_t i = 0; i < asked.size(); ++i) {
+    const MatchResult alone = match(prepare_scene(image, fixtures::kCamera), *asked[i]);
+    ASSERT_FALSE(alone.detections.empty());
+    ASSERT_EQ(together[i].detections.size(), alone.detections.size());
+    EXPECT_EQ(together[i].detections[0].camera_T_model.matrix(), alone.detections[0].camera_T_model.matrix());
+    EXPECT_EQ(together[i].detections[0].score, alone.detections[0].score);
   }
 }
 
