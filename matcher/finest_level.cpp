@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <type_traits>
 
 #include "matcher/normal_clusters.h"
 #include "matcher/parallel.h"
-#include "matcher/wide_simd.h"
+#include "matcher/pixel_row.h"
 
 namespace edgepose {
 namespace {
@@ -36,105 +34,6 @@ struct Strip {
 /// For the size of the hash table: enough for nearly all images, but small enough to stay in the cache.
 size_t expected_clusters(size_t pixels) { return std::min<size_t>(pixels / 4, 8192); }
 
-/// What one row of pixels is seen with.
-struct RowView {
-  float ray_y;
-  float fx;              // pixels
-  float side;            // pixels that one stands for
-  float max_pixel_size;  // [m]
-  float inverse_cell;    // [1/m]
-  uint32_t usable_bins;  // a bit for each bin of the noise curve
-};
-
-/// The points of some pixels of a row; structure of arrays, so that the compiler vectorises over the pixels.
-struct PixelRow {
-  explicit PixelRow(size_t count)
-      : ray_x(count),
-        x(count),
-        y(count),
-        z(count),
-        nx(count),
-        ny(count),
-        nz(count),
-        area(count),
-        edge(count),
-        cell_x(count),
-        cell_y(count),
-        cell_z(count),
-        noise_bin(count),
-        key(count),
-        cell(count),
-        run(count),
-        run_key(count + 1),
-        run_cell(count + 1) {}
-  PointRow points() const {
-    return {cell.data(), x.data(),  y.data(),    z.data(),    nx.data(),
-            ny.data(),   nz.data(), area.data(), edge.data(), cell.size()};
-  }
-
-  std::vector<float> ray_x, x, y, z, nx, ny, nz;
-  std::vector<float> area;  // [m^2] of the surface
-  std::vector<float> edge;
-  std::vector<int32_t> cell_x, cell_y, cell_z;
-  std::vector<int32_t> noise_bin;
-  std::vector<uint64_t> key;   // of the cell; kNoKey for a pixel that is left out
-  std::vector<uint32_t> cell;  // its number; 0 for a pixel that is left out
-  std::vector<uint32_t> run;   // of pixels in the same cell, from 1 on
-  std::vector<uint64_t> run_key;
-  std::vector<uint32_t> run_cell;
-};
-
-/// Works out everything but edges, depth and normal, which are there.
-EDGEPOSE_WIDE_SIMD void place_points(PixelRow& row, const RowView& view) {
-  const float *ray_x = row.ray_x.data(), *z = row.z.data(), *nx = row.nx.data(), *ny = row.ny.data(),
-              *nz = row.nz.data();
-  float *x = row.x.data(), *y = row.y.data(), *area = row.area.data();
-  int32_t *cell_x = row.cell_x.data(), *cell_y = row.cell_y.data(), *cell_z = row.cell_z.data(),
-          *noise_bin = row.noise_bin.data();
-  uint64_t* key = row.key.data();
-  const size_t count = row.key.size();
-  constexpr float kFar = 1e9f;  // cells: what is farther is left out below, but must become a number first
-  const float ray_y = view.ray_y, fx = view.fx, side_pixels = view.side, inverse_cell = view.inverse_cell;
-  EDGEPOSE_NO_OVERLAP
-  for (size_t k = 0; k < count; ++k) {
-    const float px = z[k] * ray_x[k], py = z[k] * ray_y;
-    const float facing = nx[k] * ray_x[k] + (ny[k] * ray_y + nz[k]);
-    const float cosine = -facing / std::sqrt(ray_x[k] * ray_x[k] + (ray_y * ray_y + 1.f));
-    const float side = z[k] / fx * side_pixels;
-    area[k] = side * side / std::max(0.1f, cosine);
-    x[k] = px, y[k] = py;
-    cell_x[k] = static_cast<int32_t>(std::floor(std::clamp(px * inverse_cell, -kFar, kFar)));
-    cell_y[k] = static_cast<int32_t>(std::floor(std::clamp(py * inverse_cell, -kFar, kFar)));
-    cell_z[k] = static_cast<int32_t>(std::floor(std::clamp(z[k] * inverse_cell, -kFar, kFar)));
-    noise_bin[k] = NoiseCurve::bin(z[k]);
-  }
-  const float max_pixel_size = view.max_pixel_size;
-  const uint32_t usable = view.usable_bins;
-  EDGEPOSE_NO_OVERLAP
-  for (size_t k = 0; k < count; ++k) {
-    const uint64_t of_cell = cell_key(cell_x[k], cell_y[k], cell_z[k]);
-    uint64_t taken = z[k] > 0 ? of_cell : NormalClusterGrid::kNoKey;
-    taken = z[k] / fx <= max_pixel_size ? taken : NormalClusterGrid::kNoKey;
-    key[k] = usable >> noise_bin[k] & 1 ? taken : NormalClusterGrid::kNoKey;
-  }
-}
-
-/// Takes over depths, edges and normals of every stride-th pixel; faster with a stride known at compile time.
-template <typename Stride>
-void read_pixels(PixelRow& row, const float* depth, const EdgeKind* edges, const Eigen::Vector3f* normals,
-                 int first, Stride stride) {
-  float *z = row.z.data(), *edge = row.edge.data(), *nx = row.nx.data(), *ny = row.ny.data(),
-        *nz = row.nz.data();
-  const size_t count = row.key.size();
-  EDGEPOSE_NO_OVERLAP
-  for (size_t k = 0; k < count; ++k) {
-    const size_t u = static_cast<size_t>(first) + k * static_cast<size_t>(stride);
-    z[k] = depth[u];
-    edge[k] = edges[u] == EdgeKind::kNone ? 0.f : 1.f;
-    nx[k] = normals[u].x(), ny[k] = normals[u].y(), nz[k] = normals[u].z();
-  }
-}
-
 /// One strip in the making.
 class StripSampler {
  public:
@@ -153,10 +52,7 @@ class StripSampler {
     const float* depth = scene_.smooth_depth.data() + scene_.index(0, v);
     const EdgeKind* edges = scene_.edges.data() + scene_.index(0, v);
     const Eigen::Vector3f* normals = scene_.normals.data() + scene_.index(0, v);
-    if (how_.stride == 1)
-      read_pixels(row_, depth, edges, normals, 0, std::integral_constant<int, 1>());
-    else
-      read_pixels(row_, depth, edges, normals, first_, how_.stride);
+    read_pixels(row_, depth, edges, normals, first_, how_.stride);
     place_points(row_, {scene_.ray(0, v).y(), static_cast<float>(scene_.camera.fx),
                         static_cast<float>(how_.stride), how_.max_pixel_size, grid_.inverse_cell(), usable_});
     number_cells();
