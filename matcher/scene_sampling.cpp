@@ -1,7 +1,7 @@
 #include "matcher/scene_sampling.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "matcher/finest_level.h"
 #include "matcher/normal_clusters.h"
