@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/missing_folder.h"
 
 namespace edgepose {
 namespace {
@@ -95,10 +96,7 @@ void TemporaryFile::rename_to_target() {
 
 void TemporaryFile::fail(const char* doing) const {
   const int cause = errno;
-  const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  std::error_code ignored;
-  if (cause == ENOENT && !std::filesystem::exists(folder, ignored))
-    throw InputError::at(target_.string(), "the folder " + folder.string(), "none", "make it first");
+  refuse_missing_folder(target_, cause);
   const bool full = cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
   throw InputError::at(target_.string(), std::string("a file that can be ") + doing, std::strerror(cause),
                        full ? "make room, or name another place" : "name another place");

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "common/error.h"
+#include "common/missing_folder.h"
 #include "messaging/authentication.h"
 
 namespace edgepose {
@@ -87,10 +88,7 @@ void SecretKey::write(const std::filesystem::path& path) const {
   sodium_memzero(hex.data(), hex.size());
   if (written) return;
   if (file.get() >= 0) unlink(path.c_str());
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  if (reason == ENOENT && !std::filesystem::exists(folder, ignored))
-    throw InputError::at(path.string(), "the folder " + folder.string(), "none", "make it first");
+  refuse_missing_folder(path, reason);
   throw InputError::at(path.string(), "a new key file that can be written", std::strerror(reason),
                        reason == EEXIST ? "a key is never replaced; remove it first" : "");
 }
